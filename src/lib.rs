@@ -1,0 +1,10 @@
+//! certilux: batch radiosity with guaranteed occlusion and guaranteed visibility.
+//!
+//! The method is Leblanc and Poulin, "Guaranteed Occlusion and Visibility in Cluster Hierarchical
+//! Radiosity" (2000). The modules stand in the order of the data flow: a module imports only
+//! modules listed above it.
+
+pub mod cluster;
+pub mod math;
+pub mod scene;
+pub mod solve;

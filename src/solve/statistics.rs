@@ -1,0 +1,53 @@
+//! Counts and times of a solve; the keys are those of `stats.json`.
+
+use serde::Serialize;
+
+/// One pass. Counts are exact and the same at any number of threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PassStatistics {
+    /// 1 is direct light.
+    pub pass: u32,
+    /// Wall time.
+    pub seconds: f64,
+    /// Transfers evaluated, whatever their visibility.
+    pub exchanges: u64,
+    /// Those whose rays were all blocked.
+    pub exchanges_blocked: u64,
+    /// Those whose rays were all clear.
+    pub exchanges_sampled_clear: u64,
+    /// Rays cast through Embree, evidence probes included.
+    pub rays: u64,
+    /// Those that were blocked.
+    pub rays_blocked: u64,
+    /// Sample segments tested natively.
+    pub native_rays: u64,
+    /// Those that were blocked.
+    pub native_rays_blocked: u64,
+    /// Pairs queried for a guarantee, counted once a pair whichever of the two queries ran.
+    pub shafts: u64,
+    /// Pairs proved fully occluded.
+    pub occluded_claims: u64,
+    /// Pairs proved fully visible.
+    pub visible_claims: u64,
+    /// Exchanges that needed no ray because visibility was proved.
+    pub exchanges_visible: u64,
+    /// Power still to be shot at the pass's end, in W, mean of the channels.
+    pub unshot: f64,
+}
+
+/// Where the emitted power went, in W, mean of the channels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PowerLedger {
+    /// Emitted by the scene.
+    pub emitted: f64,
+    /// Absorbed by surfaces, what arrives at backs that have no side included.
+    pub absorbed: f64,
+    /// Left the scene, measured by rays.
+    pub escaped: f64,
+    /// Standard error of `escaped`.
+    pub escaped_stderr: f64,
+    /// Still to be shot.
+    pub unshot: f64,
+    /// `(emitted - absorbed - escaped - unshot) / emitted`.
+    pub imbalance: f64,
+}
