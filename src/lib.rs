@@ -6,5 +6,6 @@
 
 pub mod cluster;
 pub mod math;
+pub mod output;
 pub mod scene;
 pub mod solve;
