@@ -6,6 +6,7 @@
 
 pub mod cluster;
 pub mod math;
+pub mod occluder;
 pub mod output;
 pub mod scene;
 pub mod solve;
