@@ -5,6 +5,7 @@
 //! modules listed above it.
 
 pub mod cluster;
+pub mod embree;
 pub mod math;
 pub mod occluder;
 pub mod output;

@@ -1,0 +1,263 @@
+//! Triangles, built into Embree's hierarchy once and then queried from any thread.
+
+use super::device::Device;
+use super::error::EmbreeError;
+use super::packet::{RayPacket8, RayPacket16};
+use super::ray::Ray;
+use embree4_sys as sys;
+use glam::Vec3;
+use std::{ptr, slice};
+
+/// A built scene, which can only be queried. Triangle `i` of the input is polygon `i` of the hits.
+///
+/// Built robustly (rays through a shared edge or vertex do not slip through) and for speed of
+/// queries. With the device's default of one build thread, equal input gives equal answers.
+///
+/// Rays exclude nothing: whoever asks trims `tnear` and `tfar` to leave and reach a surface. Rays
+/// with a NaN have no defined answer, but do no harm.
+#[derive(Debug)]
+pub struct CommittedScene {
+    handle: sys::RTCScene,
+    // Dropped after the scene, whose `drop` runs first.
+    _device: Device,
+}
+
+// SAFETY: a committed scene is never changed again, Embree documents queries of it as safe from
+// any number of threads at once, and its reference count is atomic.
+unsafe impl Send for CommittedScene {}
+// SAFETY: as above.
+unsafe impl Sync for CommittedScene {}
+
+impl CommittedScene {
+    /// Builds the hierarchy over `triangles`, counter-clockwise indices into `positions`.
+    pub fn build(
+        device: &Device,
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+    ) -> Result<Self, EmbreeError> {
+        Self::build_with(device, positions, triangles, sys::RTCSceneFlags::ROBUST)
+    }
+
+    pub(super) fn build_with(
+        device: &Device,
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+        flags: sys::RTCSceneFlags,
+    ) -> Result<Self, EmbreeError> {
+        check_input(positions, triangles)?;
+        // SAFETY: the device is live; the scene is owned, and released on every path, from here on.
+        let handle = unsafe { sys::rtcNewScene(device.handle()) };
+        let scene = Self {
+            handle: non_null(device, handle, "create a scene")?,
+            _device: device.clone(),
+        };
+        // SAFETY: the scene is live and not yet committed.
+        unsafe {
+            sys::rtcSetSceneFlags(handle, flags);
+            sys::rtcSetSceneBuildQuality(handle, sys::RTCBuildQuality::HIGH);
+        }
+        device.check("set the scene's flags")?;
+        // Embree refuses empty buffers; a scene without geometry is well defined and never hit.
+        if !triangles.is_empty() {
+            attach_triangles(device, handle, positions, triangles)?;
+        }
+        // SAFETY: the scene is live, and nobody else knows it yet.
+        unsafe { sys::rtcCommitScene(handle) };
+        device.check("build the scene's hierarchy")?;
+        Ok(scene)
+    }
+
+    pub(super) fn handle(&self) -> sys::RTCScene {
+        self.handle
+    }
+
+    /// Which of the lanes named by `active` are blocked; consumes `tfar` of those lanes.
+    #[inline]
+    pub fn occluded8(&self, rays: &mut RayPacket8, active: u8) -> u8 {
+        let valid = RayPacket8::valid(active);
+        // SAFETY: the scene is committed; the packet has RTCRay8's layout and alignment (asserted
+        // in `shim`); `valid` has 8 entries aligned to 64 bytes; null arguments are the defaults.
+        unsafe {
+            sys::rtcOccluded8(
+                valid.0.as_ptr(),
+                self.handle,
+                ptr::from_mut(rays).cast(),
+                ptr::null_mut(),
+            );
+        }
+        rays.blocked() & active
+    }
+
+    /// Which of the lanes named by `active` are blocked; consumes `tfar` of those lanes.
+    #[inline]
+    pub fn occluded16(&self, rays: &mut RayPacket16, active: u16) -> u16 {
+        let valid = RayPacket16::valid(active);
+        // SAFETY: as in `occluded8`, with RTCRay16 and 16 entries.
+        unsafe {
+            sys::rtcOccluded16(
+                valid.0.as_ptr(),
+                self.handle,
+                ptr::from_mut(rays).cast(),
+                ptr::null_mut(),
+            );
+        }
+        rays.blocked() & active
+    }
+
+    /// True when something blocks the ray.
+    #[inline]
+    pub fn occluded1(&self, ray: &Ray) -> bool {
+        let mut query = sys::RTCRay {
+            org_x: ray.origin.x,
+            org_y: ray.origin.y,
+            org_z: ray.origin.z,
+            tnear: ray.tnear,
+            dir_x: ray.direction.x,
+            dir_y: ray.direction.y,
+            dir_z: ray.direction.z,
+            time: 0.0,
+            tfar: ray.tfar,
+            mask: u32::MAX,
+            id: 0,
+            flags: 0,
+        };
+        // SAFETY: the scene is committed, RTCRay's layout is asserted in `shim`, null arguments are
+        // the defaults.
+        unsafe { sys::rtcOccluded1(self.handle, &mut query, ptr::null_mut()) };
+        query.tfar == f32::NEG_INFINITY
+    }
+
+    /// For each ray, whether something blocks it; by packets, for places where clarity counts more
+    /// than the last nanosecond.
+    pub fn occluded_many(&self, rays: &[Ray]) -> Vec<bool> {
+        let mut blocked = Vec::with_capacity(rays.len());
+        let mut packet = RayPacket8::EMPTY;
+        for rays in rays.chunks(RayPacket8::WIDTH) {
+            for (lane, ray) in rays.iter().enumerate() {
+                packet.set(lane, ray.origin, ray.direction, ray.tnear, ray.tfar);
+            }
+            let bits = self.occluded8(&mut packet, RayPacket8::first(rays.len()));
+            blocked.extend((0..rays.len()).map(|lane| bits >> lane & 1 == 1));
+        }
+        blocked
+    }
+}
+
+impl Drop for CommittedScene {
+    fn drop(&mut self) {
+        // SAFETY: `self` owns one reference and gives it back once; no query runs, for that would
+        // borrow `self`.
+        unsafe { sys::rtcReleaseScene(self.handle) };
+    }
+}
+
+/// Embree trusts indices, so they are checked here, whatever the caller promises.
+fn check_input(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), EmbreeError> {
+    // The greatest id is Embree's "invalid".
+    for (what, count) in [
+        ("vertices", positions.len()),
+        ("triangles", triangles.len()),
+    ] {
+        if count >= u32::MAX as usize {
+            return Err(EmbreeError::TooMany { what, count });
+        }
+    }
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&index) = corners.iter().find(|&&i| i as usize >= positions.len()) {
+            return Err(EmbreeError::IndexOutOfRange {
+                triangle,
+                index,
+                vertices: positions.len(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn attach_triangles(
+    device: &Device,
+    scene: sys::RTCScene,
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+) -> Result<(), EmbreeError> {
+    // SAFETY: the device is live.
+    let geometry = unsafe { sys::rtcNewGeometry(device.handle(), sys::RTCGeometryType::TRIANGLE) };
+    let mut geometry = Geometry(non_null(device, geometry, "create a geometry")?);
+
+    // Embree reads vertices 16 bytes at a time; a stride of 16 keeps every read inside the buffer.
+    let vertices = geometry.new_buffer::<[f32; 4]>(
+        device,
+        sys::RTCBufferType::VERTEX,
+        sys::RTCFormat::FLOAT3,
+        positions.len(),
+        "allocate the vertex buffer",
+    )?;
+    for (to, from) in vertices.iter_mut().zip(positions) {
+        *to = [from.x, from.y, from.z, 0.0];
+    }
+    let indices = geometry.new_buffer::<[u32; 3]>(
+        device,
+        sys::RTCBufferType::INDEX,
+        sys::RTCFormat::UINT3,
+        triangles.len(),
+        "allocate the index buffer",
+    )?;
+    indices.copy_from_slice(triangles);
+
+    // SAFETY: geometry and scene are live and not yet committed; the scene takes a reference of
+    // its own to the geometry.
+    unsafe {
+        sys::rtcSetGeometryBuildQuality(geometry.0, sys::RTCBuildQuality::HIGH);
+        sys::rtcCommitGeometry(geometry.0);
+        sys::rtcAttachGeometry(scene, geometry.0);
+    }
+    device.check("attach the triangles")
+}
+
+fn non_null<T>(
+    device: &Device,
+    handle: *mut T,
+    operation: &'static str,
+) -> Result<*mut T, EmbreeError> {
+    device.check(operation)?;
+    if handle.is_null() {
+        return Err(EmbreeError::NothingReturned { operation });
+    }
+    Ok(handle)
+}
+
+/// Owns one reference to a geometry.
+struct Geometry(sys::RTCGeometry);
+
+impl Geometry {
+    /// A buffer that Embree owns, zeroed, of `count` items.
+    fn new_buffer<T: bytemuck::Pod>(
+        &mut self,
+        device: &Device,
+        buffer: sys::RTCBufferType,
+        format: sys::RTCFormat,
+        count: usize,
+        operation: &'static str,
+    ) -> Result<&mut [T], EmbreeError> {
+        // SAFETY: the geometry is live and not yet committed.
+        let data = unsafe {
+            sys::rtcSetNewGeometryBuffer(self.0, buffer, 0, format, size_of::<T>(), count)
+        };
+        let data = non_null(device, data.cast::<T>(), operation)?;
+        // SAFETY: Embree allocated at least `count` items of this size, aligned to 16 bytes, and
+        // keeps them while the geometry lives, which `self` owns; borrowing `self` mutably makes the
+        // slice the only view. Zeroing makes the memory initialised, and every bit
+        // pattern is a valid `T`.
+        unsafe {
+            ptr::write_bytes(data, 0, count);
+            Ok(slice::from_raw_parts_mut(data, count))
+        }
+    }
+}
+
+impl Drop for Geometry {
+    fn drop(&mut self) {
+        // SAFETY: `self` owns one reference and gives it back once.
+        unsafe { sys::rtcReleaseGeometry(self.0) };
+    }
+}
