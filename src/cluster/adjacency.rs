@@ -1,0 +1,209 @@
+//! Which facets are neighbours: the dual graph of the surface (paper, section 3.1).
+//!
+//! Two facets are neighbours when they share an edge and run along it in opposite directions, so
+//! that both fronts lie on the same side of the surface. Vertices are welded first, for this
+//! purpose only. The two sides of one polygon are never neighbours, though they share three edges.
+
+use super::weld::weld_vertices;
+use crate::scene::{Facet, Scene, Side};
+use glam::DVec3;
+
+/// Default weld distance over the diagonal of the scene: the width of cracks that count as closed,
+/// below which no visibility claim promises anything.
+pub(super) const WELD: f64 = 1.0e-6;
+
+/// Links made for one half-edge, on average over an edge, before only the flattest are kept: edges
+/// of real scenes carry at most a handful of facets, all of which may then be linked, while an edge
+/// shared by thousands must not make millions of links.
+const LINKS_PER_HALF_EDGE: usize = 4;
+
+/// Two neighbouring facets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Index of the first facet.
+    pub a: u32,
+    /// Index of the second facet, greater than `a`.
+    pub b: u32,
+    /// Length of border that they share, in normalised units.
+    pub length: f64,
+}
+
+/// An edge of a facet, in the facet's direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct HalfEdge {
+    /// Smaller welded vertex.
+    pub low: u32,
+    /// Greater welded vertex.
+    pub high: u32,
+    /// True when the facet runs from `high` to `low`.
+    pub reversed: bool,
+    /// The facet.
+    pub facet: u32,
+}
+
+/// All half-edges of a facet list over welded vertices, sorted, so that those of one edge are a
+/// run and inside it the two directions are two runs.
+pub(super) struct WeldedEdges<'a> {
+    pub scene: &'a Scene,
+    pub facets: &'a [Facet],
+    pub half_edges: Vec<HalfEdge>,
+}
+
+impl<'a> WeldedEdges<'a> {
+    fn new(scene: &'a Scene, facets: &'a [Facet], weld: f64) -> Self {
+        let representative = weld_vertices(&scene.positions, weld);
+        let mut half_edges = Vec::with_capacity(3 * facets.len());
+        for (index, facet) in facets.iter().enumerate() {
+            let mut corner = scene.polygons[facet.polygon.index()]
+                .vertices
+                .map(|v| representative[v as usize]);
+            if facet.side == Side::Back {
+                corner.swap(1, 2);
+            }
+            for i in 0..3 {
+                let (from, to) = (corner[i], corner[(i + 1) % 3]);
+                if from != to {
+                    half_edges.push(HalfEdge {
+                        low: from.min(to),
+                        high: from.max(to),
+                        reversed: from > to,
+                        facet: index as u32,
+                    });
+                }
+            }
+        }
+        half_edges.sort_unstable();
+        // A needle whose third corner is welded to its first runs twice along one edge.
+        half_edges.dedup();
+        Self {
+            scene,
+            facets,
+            half_edges,
+        }
+    }
+
+    pub fn position(&self, vertex: u32) -> DVec3 {
+        self.scene.positions[vertex as usize].as_dvec3()
+    }
+
+    /// The link of two facets along `length`, or `None` for the two sides of one polygon.
+    pub fn link(&self, a: u32, b: u32, length: f64) -> Option<Link> {
+        let differ = self.facets[a as usize].polygon != self.facets[b as usize].polygon;
+        differ.then_some(Link {
+            a: a.min(b),
+            b: a.max(b),
+            length,
+        })
+    }
+}
+
+/// The links of `facets`, sorted by facet, one for each pair of neighbours. Vertices within
+/// `weld` of each other, in the units of the scene's positions, count as one.
+pub fn link_neighbours(scene: &Scene, facets: &[Facet], weld: f64) -> Vec<Link> {
+    let edges = WeldedEdges::new(scene, facets, weld);
+    let mut links = Vec::with_capacity(edges.half_edges.len() / 2);
+    for run in edges
+        .half_edges
+        .chunk_by(|x, y| (x.low, x.high) == (y.low, y.high))
+    {
+        link_edge(&edges, run, &mut links);
+    }
+    merge_parallel(links)
+}
+
+/// One link for each pair, the shared lengths added.
+fn merge_parallel(mut links: Vec<Link>) -> Vec<Link> {
+    links.sort_by_key(|l| (l.a, l.b));
+    links.dedup_by(|later, kept| {
+        let same = (later.a, later.b) == (kept.a, kept.b);
+        if same {
+            kept.length += later.length;
+        }
+        same
+    });
+    links
+}
+
+/// Links the facets that run along one edge in opposite directions.
+fn link_edge(edges: &WeldedEdges, run: &[HalfEdge], links: &mut Vec<Link>) {
+    let split = run.partition_point(|h| !h.reversed);
+    let (forward, reversed) = run.split_at(split);
+    if forward.is_empty() || reversed.is_empty() {
+        return;
+    }
+    let length = edges
+        .position(run[0].low)
+        .distance(edges.position(run[0].high));
+    if forward.len() * reversed.len() <= LINKS_PER_HALF_EDGE * run.len() {
+        for f in forward {
+            for r in reversed {
+                links.extend(edges.link(f.facet, r.facet, length));
+            }
+        }
+    } else {
+        link_flattest(edges, forward, reversed, length, links);
+    }
+}
+
+/// Links each facet of a crowded edge with those on the other side that continue it most flatly.
+fn link_flattest(
+    edges: &WeldedEdges,
+    forward: &[HalfEdge],
+    reversed: &[HalfEdge],
+    length: f64,
+    links: &mut Vec<Link>,
+) {
+    let origin = edges.position(forward[0].low);
+    let along = (edges.position(forward[0].high) - origin).normalize_or_zero();
+    let (right, up) = along.any_orthonormal_pair();
+    let by_angle = |side: &[HalfEdge]| -> Vec<(f64, u32)> {
+        let mut list: Vec<_> = side
+            .iter()
+            .map(|h| {
+                let facet = edges.facets[h.facet as usize];
+                let centroid = edges
+                    .scene
+                    .corners(facet.polygon)
+                    .iter()
+                    .map(|c| c.as_dvec3())
+                    .sum::<DVec3>()
+                    / 3.0;
+                let away = centroid - origin;
+                (turn(away.dot(right), away.dot(up)), h.facet)
+            })
+            .collect();
+        list.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        list
+    };
+    let (forward, reversed) = (by_angle(forward), by_angle(reversed));
+    let mut pairs = Vec::new();
+    for (from, to) in [(&forward, &reversed), (&reversed, &forward)] {
+        for &(angle, facet) in from {
+            let opposite = (angle + 2.0) % 4.0;
+            let here = to.partition_point(|x| x.0 < opposite) + to.len();
+            // Two on each side of the flat continuation: one of them may be the facet's own back.
+            for candidate in here - 2..here + 2 {
+                let other = to[candidate % to.len()].1;
+                pairs.push((facet.min(other), facet.max(other)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    links.extend(pairs.iter().filter_map(|&(a, b)| edges.link(a, b, length)));
+}
+
+/// A number in [0, 4) that grows with the angle of (x, y) and gains 2 in half a turn: the angle of
+/// a point on a square, which needs no trigonometry.
+fn turn(x: f64, y: f64) -> f64 {
+    let sum = x.abs() + y.abs();
+    if sum == 0.0 {
+        return 0.0;
+    }
+    match (x >= 0.0, y >= 0.0) {
+        (true, true) => y / sum,
+        (false, true) => 1.0 - x / sum,
+        (false, false) => 2.0 - y / sum,
+        (true, false) => (4.0 + y / sum) % 4.0,
+    }
+}

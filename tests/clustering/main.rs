@@ -1,0 +1,4 @@
+//! The hierarchy: adjacency, face clusters, volume clusters, as laid out and as promised.
+
+mod meshes;
+mod trees;
