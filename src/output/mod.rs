@@ -1,21 +1,36 @@
 //! What a solve leaves on disk: the solution as a mesh, its picture and its numbers.
 
 mod atomic;
+mod camera;
 mod error;
+mod exr_file;
 #[cfg(test)]
 mod fixture;
+mod mean_value;
+mod panel;
+mod picture;
 mod ply_reader;
 #[cfg(test)]
 mod ply_tests;
 mod ply_writer;
+mod png_file;
+mod smoothing;
 mod solved_mesh;
 mod stats_file;
 mod tonemap;
+mod view;
+#[cfg(test)]
+mod view_tests;
 
 pub use atomic::{FileWriter, write_atomically};
+pub use camera::{Camera, CameraError, PinHole};
 pub use error::OutputError;
+pub use exr_file::write_exr;
+pub use picture::{Picture, Pixel};
 pub use ply_reader::read_ply;
 pub use ply_writer::write_ply;
+pub use png_file::write_png;
 pub use solved_mesh::{SolvedFace, SolvedMesh};
 pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json};
 pub use tonemap::ToneMap;
+pub use view::{Shading, View, ViewConfig};

@@ -1,0 +1,464 @@
+//! Irradiance at the vertices of patches, for smooth shading with creases kept.
+//!
+//! At every vertex the patches around it fall into groups of nearly equal normals; the group's
+//! value is the mean of its patches. A vertex on the edge of a larger patch counts for that patch
+//! too, so that both sides of the edge see the same values ([`super::mean_value`]). Irradiance is
+//! averaged and not radiosity, because it goes on smoothly where the material changes; radiosity
+//! follows from it by the patch's own reflectance.
+
+use super::SolvedMesh;
+use super::mean_value::{BorderValue, interpolate};
+use super::panel::{Panel, Panels, position_key};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Cosine of the greatest angle between normals that are shaded as one surface: 25 degrees keeps
+/// the edges of a 12-sided column and smooths one of 16 sides.
+const CREASE_COSINE: f64 = 0.906_307_787_036_65;
+
+/// Levels of splits across one edge that are followed; a 2^12-fold finer neighbour is invisible.
+const EDGE_LEVELS: u32 = 12;
+
+/// Patches before it at a vertex with which a patch is compared: all of them, but for the hub of a
+/// fan of hundreds of triangles, whose neighbours stand close in the file anyway.
+const GROUP_WINDOW: usize = 256;
+
+/// A vertex on the edge of a patch, corners left out.
+#[derive(Clone, Copy, Debug)]
+struct Hanging {
+    /// Index into the values.
+    value: u32,
+    /// Place on the edge, in (0, 1), from corner `edge` to the next.
+    along: f32,
+    /// Which edge.
+    edge: u8,
+}
+
+/// Values at the borders of all patches.
+#[derive(Clone, Debug)]
+pub(crate) struct Smoothing {
+    /// One a vertex and group of normals.
+    values: Vec<[f32; 3]>,
+    /// The values at the corners of each patch.
+    corners: Vec<[u32; 3]>,
+    /// Further values on the edges of the patches, ordered along the border.
+    hanging: Vec<Hanging>,
+    /// `hanging[first_hanging[i] .. first_hanging[i + 1]]` are those of patch `i`.
+    first_hanging: Vec<u32>,
+}
+
+/// A patch at a vertex.
+#[derive(Clone, Copy)]
+struct Incident {
+    leaf: u32,
+    /// 0 to 2 for a corner, 3 to 5 for the inside of an edge.
+    slot: u8,
+    along: f32,
+}
+
+impl Smoothing {
+    /// Averages the irradiance of `mesh` around the vertices of `panels`, which are its panels.
+    pub fn new(mesh: &SolvedMesh, panels: &Panels) -> Self {
+        let normals: Vec<DVec3> = panels.panels.iter().map(|p| panels.normal(p)).collect();
+        let incidents = IncidentTable::new(panels);
+        let mut values = Vec::with_capacity(panels.positions.len());
+        let mut corners = vec![[0u32; 3]; panels.leaves.len()];
+        let mut hanging: Vec<(u32, Hanging)> = Vec::new();
+        let mut groups = Vec::new();
+        for vertex in 0..panels.positions.len() {
+            let around = incidents.of(vertex);
+            group_by_normal(around, panels, &normals, &mut groups);
+            for group in 0..around.len() as u32 {
+                // A group bears the number of its first patch.
+                if groups[group as usize] != group {
+                    continue;
+                }
+                let members =
+                    || (around.iter().zip(&groups)).filter_map(|(i, &g)| (g == group).then_some(i));
+                // An edge that only other surfaces meet at this vertex needs no value here.
+                if !members().any(|i| i.slot < 3) {
+                    continue;
+                }
+                let id = values.len() as u32;
+                values.push(mean(mesh, panels, vertex, members()));
+                for incident in members() {
+                    match incident.slot {
+                        slot @ 0..3 => corners[incident.leaf as usize][slot as usize] = id,
+                        slot => hanging.push((
+                            incident.leaf,
+                            Hanging {
+                                value: id,
+                                along: incident.along,
+                                edge: slot - 3,
+                            },
+                        )),
+                    }
+                }
+            }
+        }
+        hanging.sort_by(|(i, a), (j, b)| {
+            (i, a.edge)
+                .cmp(&(j, b.edge))
+                .then(a.along.total_cmp(&b.along))
+        });
+        let mut first_hanging = vec![0u32; panels.leaves.len() + 1];
+        for (leaf, _) in &hanging {
+            first_hanging[*leaf as usize + 1] += 1;
+        }
+        for i in 1..first_hanging.len() {
+            first_hanging[i] += first_hanging[i - 1];
+        }
+        Self {
+            values,
+            corners,
+            hanging: hanging.into_iter().map(|(_, h)| h).collect(),
+            first_hanging,
+        }
+    }
+
+    /// The irradiance at barycentric `weights` in patch `leaf`.
+    pub fn irradiance(&self, leaf: usize, weights: [f64; 3]) -> [f64; 3] {
+        let value = |id: u32| self.values[id as usize].map(f64::from);
+        let corners = self.corners[leaf].map(value);
+        let extra =
+            &self.hanging[self.first_hanging[leaf] as usize..self.first_hanging[leaf + 1] as usize];
+        if extra.is_empty() {
+            return std::array::from_fn(|c| (0..3).map(|i| weights[i] * corners[i][c]).sum());
+        }
+        let mut border = Vec::with_capacity(3 + extra.len());
+        let mut rest = extra.iter().peekable();
+        for edge in 0..3u8 {
+            let corner = usize::from(edge);
+            let mut at = [0.0; 3];
+            at[corner] = 1.0;
+            border.push(BorderValue {
+                weights: at,
+                value: corners[corner],
+            });
+            while let Some(h) = rest.next_if(|h| h.edge == edge) {
+                let along = f64::from(h.along);
+                let mut at = [0.0; 3];
+                at[corner] = 1.0 - along;
+                at[(corner + 1) % 3] = along;
+                border.push(BorderValue {
+                    weights: at,
+                    value: value(h.value),
+                });
+            }
+        }
+        interpolate(&border, weights)
+    }
+}
+
+/// The patches around every vertex, by corner or by edge.
+struct IncidentTable {
+    first: Vec<u32>,
+    incidents: Vec<Incident>,
+}
+
+impl IncidentTable {
+    fn new(panels: &Panels) -> Self {
+        let index: HashMap<[u64; 3], u32> = (0u32..)
+            .zip(&panels.positions)
+            .map(|(v, &p)| (position_key(p), v))
+            .collect();
+        let mut found: Vec<(u32, Incident)> = Vec::with_capacity(4 * panels.leaves.len());
+        for (l, leaf) in (0u32..).zip(&panels.leaves) {
+            for slot in 0..3u8 {
+                let from = leaf.corners[usize::from(slot)];
+                let to = leaf.corners[(usize::from(slot) + 1) % 3];
+                found.push((
+                    from,
+                    Incident {
+                        leaf: l,
+                        slot,
+                        along: 0.0,
+                    },
+                ));
+                let mut edge = Edge {
+                    panels,
+                    index: &index,
+                    leaf: l,
+                    slot: 3 + slot,
+                    found: &mut found,
+                };
+                edge.search(from, to, (0.0, 1.0), EDGE_LEVELS);
+            }
+        }
+        // Stable: within a vertex in the order of the patches.
+        found.sort_by_key(|&(vertex, _)| vertex);
+        let mut first = vec![0u32; panels.positions.len() + 1];
+        for (vertex, _) in &found {
+            first[*vertex as usize + 1] += 1;
+        }
+        for i in 1..first.len() {
+            first[i] += first[i - 1];
+        }
+        Self {
+            first,
+            incidents: found.into_iter().map(|(_, i)| i).collect(),
+        }
+    }
+
+    fn of(&self, vertex: usize) -> &[Incident] {
+        &self.incidents[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+}
+
+/// An edge of a patch, searched for vertices of finer neighbours. Splits halve edges exactly, so
+/// such vertices stand at midpoints, bit by bit, and none stands below a midpoint that is none.
+struct Edge<'a> {
+    panels: &'a Panels,
+    index: &'a HashMap<[u64; 3], u32>,
+    leaf: u32,
+    slot: u8,
+    found: &'a mut Vec<(u32, Incident)>,
+}
+
+impl Edge<'_> {
+    fn search(&mut self, from: u32, to: u32, (start, end): (f32, f32), levels: u32) {
+        let at = |v: u32| self.panels.positions[v as usize];
+        let middle = position_key(0.5 * (at(from) + at(to)));
+        let Some(&vertex) = self.index.get(&middle) else {
+            return;
+        };
+        if levels == 0 || vertex == from || vertex == to {
+            return;
+        }
+        let along = 0.5 * (start + end);
+        self.found.push((
+            vertex,
+            Incident {
+                leaf: self.leaf,
+                slot: self.slot,
+                along,
+            },
+        ));
+        self.search(from, vertex, (start, along), levels - 1);
+        self.search(vertex, to, (along, end), levels - 1);
+    }
+}
+
+/// Numbers the groups of patches whose normals are close, or joined by a chain of close ones.
+fn group_by_normal(around: &[Incident], panels: &Panels, normals: &[DVec3], groups: &mut Vec<u32>) {
+    let normal = |i: usize| normals[panels.leaves[around[i].leaf as usize].panel as usize];
+    groups.clear();
+    groups.extend(0..around.len() as u32);
+    for i in 1..around.len() {
+        for j in i.saturating_sub(GROUP_WINDOW)..i {
+            let (old, new) = (groups[i].max(groups[j]), groups[i].min(groups[j]));
+            if old != new && normal(i).dot(normal(j)) >= CREASE_COSINE {
+                for group in &mut groups[..=i] {
+                    if *group == old {
+                        *group = new;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The mean irradiance of `members` at a vertex. A patch counts by its angle there and by the
+/// closeness of its middle, which is where its own value holds: so between a large patch and a
+/// small one the mean is what a straight line between their middles has at the vertex.
+fn mean<'a>(
+    mesh: &SolvedMesh,
+    panels: &Panels,
+    vertex: usize,
+    members: impl Iterator<Item = &'a Incident>,
+) -> [f32; 3] {
+    let here = panels.positions[vertex];
+    let (mut sum, mut total) = ([0.0f64; 3], 0.0);
+    for incident in members {
+        let leaf = &panels.leaves[incident.leaf as usize];
+        let corners = leaf.corners.map(|v| panels.positions[v as usize]);
+        let angle = match incident.slot {
+            slot @ 0..3 => {
+                let slot = usize::from(slot);
+                let (a, b) = (
+                    corners[(slot + 1) % 3] - here,
+                    corners[(slot + 2) % 3] - here,
+                );
+                a.cross(b).length().atan2(a.dot(b))
+            }
+            _ => std::f64::consts::PI,
+        };
+        let distance = ((corners[0] + corners[1] + corners[2]) / 3.0 - here).length();
+        let weight = angle / distance;
+        if !(weight.is_finite() && weight > 0.0) {
+            continue;
+        }
+        let irradiance = mesh.faces[incident.leaf as usize].irradiance;
+        for c in 0..3 {
+            sum[c] += weight * f64::from(irradiance[c]);
+        }
+        total += weight;
+    }
+    if total == 0.0 {
+        return [0.0; 3];
+    }
+    sum.map(|s| (s / total) as f32)
+}
+
+/// How much radiosity a panel adds per irradiance, a channel: its reflectance, read off its patches
+/// because a mesh carries no materials. Zero where nothing tells.
+pub(crate) fn reflectance(mesh: &SolvedMesh, panels: &Panels, panel: &Panel) -> [f32; 3] {
+    /// Irradiance must differ by this share within a panel for its slope to be more than rounding.
+    const TELLING: f64 = 1.0e-2;
+    let faces = &mesh.faces[panels.leaf_range(panel)];
+    std::array::from_fn(|c| {
+        let pair = |f: &super::SolvedFace| (f64::from(f.irradiance[c]), f64::from(f.radiosity[c]));
+        let (mut least, mut greatest) = (pair(&faces[0]), pair(&faces[0]));
+        for face in faces {
+            let (e, b) = pair(face);
+            if e < least.0 {
+                least = (e, b);
+            }
+            if e > greatest.0 {
+                greatest = (e, b);
+            }
+        }
+        let slope = if greatest.0 - least.0 > TELLING * greatest.0 {
+            (greatest.1 - least.1) / (greatest.0 - least.0)
+        } else if greatest.1 <= greatest.0 && greatest.0 > 0.0 {
+            greatest.1 / greatest.0
+        } else {
+            0.0
+        };
+        slope.clamp(0.0, 1.0) as f32
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture;
+    use super::*;
+    use crate::math::hash_u64;
+
+    /// A square of two triangles in the plane z = 0 and a wall on its edge x = 0, split at random,
+    /// each patch with an irradiance of its own: the floor's in [1, 2), the wall's in [5, 6).
+    fn floor_and_wall() -> SolvedMesh {
+        let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+        let scene = fixture::scene(
+            vec![
+                corner(0.0, 0.0, 0.0),
+                corner(1.0, 0.0, 0.0),
+                corner(1.0, 1.0, 0.0),
+                corner(0.0, 1.0, 0.0),
+                corner(0.0, 0.0, 1.0),
+                corner(0.0, 1.0, 1.0),
+            ],
+            &[
+                ([0, 1, 2], 0, 0),
+                ([0, 2, 3], 0, 0),
+                ([0, 3, 5], 1, 0),
+                ([0, 5, 4], 1, 0),
+            ],
+            vec![fixture::grey(0.5, 0.0)],
+        );
+        let solution = fixture::solve(&scene, fixture::fronts(&scene), 6, |facet, corners| {
+            let bits = (corners[0] + corners[1] + corners[2])
+                .to_array()
+                .map(|x| u64::from(x.to_bits()))
+                .into_iter()
+                .fold(0, |key, x| hash_u64(key ^ x));
+            let own = (bits >> 40) as f32 / (1u64 << 24) as f32;
+            let irradiance = own + if facet.polygon.0 < 2 { 1.0 } else { 5.0 };
+            (0.5 * irradiance, irradiance)
+        });
+        SolvedMesh::new(&scene, &solution)
+    }
+
+    /// Smooth irradiance of the floor at (x, y).
+    fn on_floor(panels: &Panels, smoothing: &Smoothing, x: f64, y: f64) -> f64 {
+        let (panel, weights) = if x >= y {
+            (&panels.panels[0], [1.0 - x, x - y, y])
+        } else {
+            (&panels.panels[1], [1.0 - y, x, y - x])
+        };
+        let (leaf, local) = panels.leaf_at(panel, weights);
+        smoothing.irradiance(leaf, local.map(|w| w.clamp(0.0, 1.0)))[0]
+    }
+
+    #[test]
+    fn neighbours_agree_on_their_edges_whatever_their_sizes() {
+        let mesh = floor_and_wall();
+        let panels = Panels::new(&mesh);
+        assert_eq!(panels.panels.len(), 4);
+        let smoothing = Smoothing::new(&mesh, &panels);
+        assert!(smoothing.hanging.len() > 100);
+        let (mut tried, mut varied) = (0, 0);
+        for leaf in (panels.leaves.iter()).filter(|l| l.panel < 2) {
+            for edge in 0..3 {
+                let at = |v: u32| panels.positions[v as usize];
+                let (a, b) = (at(leaf.corners[edge]), at(leaf.corners[(edge + 1) % 3]));
+                let across = DVec3::Z.cross(b - a).normalize() * 1e-9;
+                for t in [0.11, 0.37, 0.52, 0.83] {
+                    let (p, q) = (a.lerp(b, t) + across, a.lerp(b, t) - across);
+                    if [p.x, p.y, q.x, q.y]
+                        .iter()
+                        .any(|x| !(0.0..=1.0).contains(x))
+                    {
+                        continue;
+                    }
+                    let (here, there) = (
+                        on_floor(&panels, &smoothing, p.x, p.y),
+                        on_floor(&panels, &smoothing, q.x, q.y),
+                    );
+                    assert!((here - there).abs() < 1e-5, "{p} {here} {q} {there}");
+                    tried += 1;
+                    // Agreement would mean nothing if the field were flat.
+                    varied += usize::from((here - 1.5).abs() > 1e-3);
+                }
+            }
+        }
+        assert!(tried > 1000 && varied > 500, "{tried} {varied}");
+    }
+
+    #[test]
+    fn creases_keep_surfaces_apart() {
+        let mesh = floor_and_wall();
+        let panels = Panels::new(&mesh);
+        let smoothing = Smoothing::new(&mesh, &panels);
+        for (i, leaf) in panels.leaves.iter().enumerate() {
+            let range = if leaf.panel < 2 { 1.0..=2.0 } else { 5.0..=6.0 };
+            for weights in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.2, 0.3, 0.5]] {
+                let [e, ..] = smoothing.irradiance(i, weights);
+                assert!(range.contains(&e), "{i}: {e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_uniform_field_stays_uniform() {
+        let mut mesh = floor_and_wall();
+        for face in &mut mesh.faces {
+            face.irradiance = [0.25; 3];
+        }
+        let panels = Panels::new(&mesh);
+        let smoothing = Smoothing::new(&mesh, &panels);
+        for i in 0..panels.leaves.len() {
+            let [e, ..] = smoothing.irradiance(i, [0.3, 0.3, 0.4]);
+            assert!((e - 0.25).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_reflectance_is_read_off_the_patches() {
+        let mut mesh = floor_and_wall();
+        let panels = Panels::new(&mesh);
+        let of = |mesh: &SolvedMesh, p: usize| reflectance(mesh, &panels, &panels.panels[p])[0];
+        assert!((of(&mesh, 0) - 0.5).abs() < 1e-5);
+        // An emitter of varied irradiance: the slope, not the ratio.
+        for face in &mut mesh.faces {
+            face.radiosity = face.irradiance.map(|e| 30.0 + 0.75 * e);
+        }
+        assert!((of(&mesh, 0) - 0.75).abs() < 1e-4);
+        // An emitter under uniform light tells nothing.
+        for face in &mut mesh.faces {
+            face.irradiance = [1.0; 3];
+            face.radiosity = [30.75; 3];
+        }
+        assert_eq!(of(&mesh, 0), 0.0);
+    }
+}

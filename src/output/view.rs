@@ -1,0 +1,326 @@
+//! Renders a solved mesh: primary rays through Embree, patches looked up under the hits.
+
+use super::camera::PinHole;
+use super::panel::Panels;
+use super::smoothing::{Smoothing, reflectance};
+use super::{Picture, Pixel, SolvedMesh};
+use crate::embree::{CommittedScene, Device, EmbreeError, Hit, Ray};
+use crate::scene::Side;
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::f32::consts::PI;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How patches are shaded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// Values at vertices, interpolated; creases are kept.
+    #[default]
+    Smooth,
+    /// One value a patch.
+    Flat,
+}
+
+/// How a picture is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ViewConfig {
+    /// Smooth or flat.
+    pub shading: Shading,
+    /// Rays along each side of a pixel; their square is the number of rays a pixel, 1 to 16 a side.
+    pub samples_a_side: u32,
+}
+
+impl Default for ViewConfig {
+    /// 3 x 3 rays a pixel: edges without visible steps in well under a second a megapixel a core.
+    fn default() -> Self {
+        Self {
+            shading: Shading::Smooth,
+            samples_a_side: 3,
+        }
+    }
+}
+
+/// A solved mesh made ready for pictures: polygons in Embree, patches in trees, values at vertices.
+pub struct View<'a> {
+    mesh: &'a SolvedMesh,
+    panels: Panels,
+    smoothing: Smoothing,
+    /// By panel: how irradiance becomes radiosity.
+    reflectance: Vec<[f32; 3]>,
+    polygons: Vec<ViewPolygon>,
+    embree: CommittedScene,
+    frame: Frame,
+}
+
+/// A triangle with one panel, or one on each side.
+struct ViewPolygon {
+    /// Welded vertices, counter-clockwise seen from the front.
+    corners: [u32; 3],
+    front: Option<u32>,
+    back: Option<u32>,
+}
+
+/// The map from the file's units to those in which rays are cast: about the unit cube, so that f32
+/// serves scenes of any size and place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Frame {
+    centre: DVec3,
+    scale: f64,
+}
+
+impl Frame {
+    fn around(positions: &[DVec3]) -> Self {
+        let (least, greatest) = positions.iter().fold(
+            (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |(least, greatest), &p| (least.min(p), greatest.max(p)),
+        );
+        let extent = (greatest - least).max_element();
+        if !(extent > 0.0 && extent.is_finite()) {
+            return Self {
+                centre: DVec3::ZERO,
+                scale: 1.0,
+            };
+        }
+        Self {
+            // Halved first: the sum of two great coordinates need not be finite.
+            centre: 0.5 * least + 0.5 * greatest,
+            scale: 1.0 / extent,
+        }
+    }
+
+    pub fn point(&self, file: DVec3) -> Vec3 {
+        ((file - self.centre) * self.scale).as_vec3()
+    }
+}
+
+/// What lies under a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Seen {
+    radiosity: [f32; 3],
+    irradiance: [f32; 3],
+}
+
+impl<'a> View<'a> {
+    /// Builds what pictures of `mesh` need.
+    ///
+    /// # Errors
+    /// [`EmbreeError`] when Embree refuses, for want of memory for example.
+    pub fn new(mesh: &'a SolvedMesh, device: &Device) -> Result<Self, EmbreeError> {
+        let panels = Panels::new(mesh);
+        let smoothing = Smoothing::new(mesh, &panels);
+        let frame = Frame::around(&panels.positions);
+        let polygons = pair_sides(mesh, &panels);
+        let positions: Vec<Vec3> = panels.positions.iter().map(|&p| frame.point(p)).collect();
+        let triangles: Vec<[u32; 3]> = polygons.iter().map(|p| p.corners).collect();
+        let embree = CommittedScene::build(device, &positions, &triangles)?;
+        let reflectance = (panels.panels.iter())
+            .map(|panel| reflectance(mesh, &panels, panel))
+            .collect();
+        Ok(Self {
+            mesh,
+            panels,
+            smoothing,
+            reflectance,
+            polygons,
+            embree,
+            frame,
+        })
+    }
+
+    /// Takes a picture; `None` when `interrupted` was raised before it was done. The picture is the
+    /// same at any number of threads.
+    pub fn render(
+        &self,
+        camera: &PinHole,
+        config: &ViewConfig,
+        interrupted: &AtomicBool,
+    ) -> Option<Picture> {
+        let size = camera.size();
+        let width = size[0] as usize;
+        let mut pixels = vec![Pixel::BACKGROUND; width * size[1] as usize];
+        pixels.par_chunks_mut(width).enumerate().for_each_init(
+            RowBuffers::default,
+            |buffers, (y, row)| {
+                if !interrupted.load(Ordering::Relaxed) {
+                    self.render_row(camera, config, y, row, buffers);
+                }
+            },
+        );
+        (!interrupted.load(Ordering::Relaxed)).then_some(Picture { size, pixels })
+    }
+
+    fn render_row(
+        &self,
+        camera: &PinHole,
+        config: &ViewConfig,
+        y: usize,
+        row: &mut [Pixel],
+        buffers: &mut RowBuffers,
+    ) {
+        let side = config.samples_a_side.clamp(1, 16);
+        let a_pixel = (side * side) as usize;
+        let ray = |x: f64, y: f64| {
+            Ray::half_line(
+                self.frame.point(camera.eye()),
+                camera.direction(DVec2::new(x, y)).as_vec3(),
+                0.0,
+            )
+        };
+        // The middle of each pixel first, for the layers that must not be averaged.
+        buffers.rays.clear();
+        buffers
+            .rays
+            .extend((0..row.len()).map(|x| ray(x as f64 + 0.5, y as f64 + 0.5)));
+        self.embree.closest_hits(&buffers.rays, &mut buffers.hits);
+        for (pixel, hit) in row.iter_mut().zip(&buffers.hits) {
+            if let Some(hit) = hit {
+                self.identify(hit, camera, pixel);
+            }
+        }
+        buffers.rays.clear();
+        for x in 0..row.len() {
+            for k in 0..side * side {
+                // A grid turned by the lattice's usual slant, so that no two samples of a pixel
+                // share a row or column (n-rooks).
+                let (i, j) = (f64::from(k % side), f64::from(k / side));
+                let n = f64::from(side);
+                buffers.rays.push(ray(
+                    x as f64 + (i + (j + 0.5) / n) / n,
+                    y as f64 + (j + (i + 0.5) / n) / n,
+                ));
+            }
+        }
+        self.embree.closest_hits(&buffers.rays, &mut buffers.hits);
+        let share = 1.0 / a_pixel as f32;
+        for (pixel, hits) in row.iter_mut().zip(buffers.hits.chunks(a_pixel)) {
+            let mut covered = 0u32;
+            for hit in hits.iter().flatten() {
+                covered += 1;
+                let seen = self.shade(hit, camera, config.shading);
+                for c in 0..3 {
+                    pixel.radiance[c] += seen.radiosity[c] * share / PI;
+                    pixel.irradiance[c] += seen.irradiance[c] * share;
+                }
+            }
+            pixel.alpha = covered as f32 * share;
+        }
+    }
+
+    /// Which side of its polygon a hit sees: decided by the eye's place and not by the ray's
+    /// rounded direction.
+    fn side_seen(&self, hit: &Hit, camera: &PinHole) -> Side {
+        let polygon = &self.polygons[hit.polygon.index()];
+        let [a, b, c] = polygon.corners.map(|v| self.panels.positions[v as usize]);
+        if (b - a).cross(c - a).dot(camera.eye() - a) >= 0.0 {
+            Side::Front
+        } else {
+            Side::Back
+        }
+    }
+
+    /// Fills in the layers that hold for the pixel's middle.
+    fn identify(&self, hit: &Hit, camera: &PinHole, pixel: &mut Pixel) {
+        let polygon = &self.polygons[hit.polygon.index()];
+        let [a, b, c] = polygon.corners.map(|v| self.panels.positions[v as usize]);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let (sign, panel) = match self.side_seen(hit, camera) {
+            Side::Front => (1.0, polygon.front.or(polygon.back)),
+            Side::Back => (-1.0, polygon.back.or(polygon.front)),
+        };
+        pixel.normal = (normal * sign).as_vec3().to_array();
+        pixel.depth = (f64::from(hit.t) / self.frame.scale) as f32;
+        if let Some(panel) = panel {
+            pixel.face = self.panels.panels[panel as usize].source_face as f32;
+        }
+    }
+
+    /// The light that leaves a hit towards the eye; black where the side has none.
+    fn shade(&self, hit: &Hit, camera: &PinHole, shading: Shading) -> Seen {
+        const DARK: Seen = Seen {
+            radiosity: [0.0; 3],
+            irradiance: [0.0; 3],
+        };
+        let polygon = &self.polygons[hit.polygon.index()];
+        let panel = match self.side_seen(hit, camera) {
+            Side::Front => polygon.front,
+            Side::Back => polygon.back,
+        };
+        let Some(p) = panel else {
+            return DARK;
+        };
+        let panel = &self.panels.panels[p as usize];
+        // Rounding may leave a hit a little outside of its triangle.
+        let v = f64::from(hit.u).clamp(0.0, 1.0);
+        let w = f64::from(hit.v).clamp(0.0, 1.0 - v);
+        let of_polygon = [1.0 - v - w, v, w];
+        let weights = panel.corners.map(|corner| {
+            let place = (polygon.corners.iter()).position(|&other| other == corner);
+            of_polygon[place.expect("both sides of a polygon have the same corners")]
+        });
+        let (leaf, local) = self.panels.leaf_at(panel, weights);
+        let face = &self.mesh.faces[leaf];
+        if shading == Shading::Flat {
+            return Seen {
+                radiosity: face.radiosity,
+                irradiance: face.irradiance,
+            };
+        }
+        let local = local.map(|x| x.clamp(0.0, 1.0));
+        let irradiance = self.smoothing.irradiance(leaf, local).map(|x| x as f32);
+        let reflectance = self.reflectance[p as usize];
+        Seen {
+            radiosity: std::array::from_fn(|c| {
+                let more = irradiance[c] - face.irradiance[c];
+                (face.radiosity[c] + reflectance[c] * more).max(0.0)
+            }),
+            irradiance,
+        }
+    }
+}
+
+/// Memory that the rows of one thread share.
+#[derive(Default)]
+struct RowBuffers {
+    rays: Vec<Ray>,
+    hits: Vec<Option<Hit>>,
+}
+
+/// Joins the two sides of each triangle; corners run as seen from the front. Sheets laid back to
+/// back on the same three vertices become one, or rays would meet either at random.
+fn pair_sides(mesh: &SolvedMesh, panels: &Panels) -> Vec<ViewPolygon> {
+    let mut index: HashMap<[u32; 3], usize> = HashMap::with_capacity(panels.panels.len());
+    let mut polygons: Vec<ViewPolygon> = Vec::with_capacity(panels.panels.len());
+    let lit = |p: u32| {
+        let range = panels.leaf_range(&panels.panels[p as usize]);
+        (mesh.faces[range].iter()).any(|face| face.radiosity.iter().any(|&b| b > 0.0))
+    };
+    for (p, panel) in (0u32..).zip(&panels.panels) {
+        let mut sorted = panel.corners;
+        sorted.sort_unstable();
+        let [a, b, c] = panel.corners;
+        let i = *index.entry(sorted).or_insert_with(|| {
+            polygons.push(ViewPolygon {
+                corners: match panel.side {
+                    Side::Front => [a, b, c],
+                    Side::Back => [a, c, b],
+                },
+                front: None,
+                back: None,
+            });
+            polygons.len() - 1
+        });
+        let polygon = &mut polygons[i];
+        let [a, b, c] = polygon.corners;
+        let turned_alike = [[a, b, c], [b, c, a], [c, a, b]].contains(&panel.corners);
+        let place = if turned_alike {
+            &mut polygon.front
+        } else {
+            &mut polygon.back
+        };
+        if place.is_none_or(|other| !lit(other) && lit(p)) {
+            *place = Some(p);
+        }
+    }
+    polygons
+}
