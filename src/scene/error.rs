@@ -1,5 +1,6 @@
 //! What can be wrong with an input file: every defect with its file, its line and its reason.
 
+use super::config::CLAMPED_REFLECTANCE;
 use std::fmt;
 use thiserror::Error;
 
@@ -86,7 +87,7 @@ pub enum Reason {
          (change it, or pass --clamp-reflectance to go on with {})",
         colour(.value),
         texture_note(.texture),
-        super::CLAMPED_REFLECTANCE
+        CLAMPED_REFLECTANCE
     )]
     ReflectanceTooHigh {
         /// The material.

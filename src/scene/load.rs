@@ -2,6 +2,7 @@
 //! ones before have found sound.
 
 use super::assets::Assets;
+use super::config::LoadConfig;
 use super::error::{Defect, DefectLog, LoadError, MAX_ELEMENTS, Reason};
 use super::material::{Materials, check_materials, describe, resolve_materials};
 use super::model::{Normalisation, Polygon, Scene, SceneWarning};
@@ -13,14 +14,6 @@ use super::surface::{Canvas, assign_surfaces};
 use glam::{DVec3, Vec3};
 use std::io;
 use std::path::Path;
-
-/// What the loader may do about input that is not quite as it should be.
-#[derive(Clone, Debug, Default)]
-pub struct LoadConfig {
-    /// Lower a `Kd` of 1 or more to [`super::CLAMPED_REFLECTANCE`] with a warning instead of
-    /// refusing it.
-    pub clamp_reflectance: bool,
-}
 
 /// Loads the OBJ file at `path`; material libraries and textures are looked for beside it.
 ///

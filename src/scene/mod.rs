@@ -1,6 +1,7 @@
 //! From an OBJ file to a validated, normalised scene.
 
 mod assets;
+mod config;
 mod degenerate;
 mod error;
 mod load;
@@ -17,7 +18,7 @@ mod texture;
 mod texture_map;
 mod triangulate;
 
+pub use config::{CLAMPED_REFLECTANCE, LoadConfig};
 pub use error::{Defect, LoadError, MAX_ELEMENTS, Reason};
-pub use load::{LoadConfig, load_file, load_text};
+pub use load::{load_file, load_text};
 pub use model::{Facet, Normalisation, Polygon, Scene, SceneWarning, Side, Surface};
-pub use surface::CLAMPED_REFLECTANCE;

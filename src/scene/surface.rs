@@ -1,8 +1,8 @@
 //! From materials and textures to the surfaces of polygons.
 
 use super::assets::Assets;
+use super::config::{CLAMPED_REFLECTANCE, LoadConfig};
 use super::error::{Defect, DefectLog, Reason};
-use super::load::LoadConfig;
 use super::material::{DEFAULT_REFLECTANCE, describe};
 use super::model::{SceneWarning, Surface};
 use super::mtl_scan::RawMaterial;
@@ -13,10 +13,6 @@ use super::texture_map::TextureMap;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
-
-/// What `Kd` is lowered to by [`LoadConfig::clamp_reflectance`]: light then falls to a thousandth
-/// in 6900 reflections instead of never.
-pub const CLAMPED_REFLECTANCE: f64 = 0.999;
 
 /// Surfaces of a scene.
 pub(super) struct Surfaces {
