@@ -4,6 +4,7 @@
 //! that both fronts lie on the same side of the surface. Vertices are welded first, for this
 //! purpose only. The two sides of one polygon are never neighbours, though they share three edges.
 
+use super::t_junction::link_t_junctions;
 use super::weld::weld_vertices;
 use crate::scene::{Facet, Scene, Side};
 use glam::DVec3;
@@ -15,7 +16,7 @@ pub(super) const WELD: f64 = 1.0e-6;
 /// Links made for one half-edge, on average over an edge, before only the flattest are kept: edges
 /// of real scenes carry at most a handful of facets, all of which may then be linked, while an edge
 /// shared by thousands must not make millions of links.
-const LINKS_PER_HALF_EDGE: usize = 4;
+pub(super) const LINKS_PER_HALF_EDGE: usize = 4;
 
 /// Two neighbouring facets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,13 @@ pub(super) struct HalfEdge {
     pub reversed: bool,
     /// The facet.
     pub facet: u32,
+}
+
+impl HalfEdge {
+    /// True for half-edges of one welded edge, whatever their direction.
+    pub fn same_edge(&self, other: &Self) -> bool {
+        (self.low, self.high) == (other.low, other.high)
+    }
 }
 
 /// All half-edges of a facet list over welded vertices, sorted, so that those of one edge are a
@@ -102,13 +110,30 @@ impl<'a> WeldedEdges<'a> {
 pub fn link_neighbours(scene: &Scene, facets: &[Facet], weld: f64) -> Vec<Link> {
     let edges = WeldedEdges::new(scene, facets, weld);
     let mut links = Vec::with_capacity(edges.half_edges.len() / 2);
-    for run in edges
-        .half_edges
-        .chunk_by(|x, y| (x.low, x.high) == (y.low, y.high))
-    {
+    let mut matched = vec![false; edges.half_edges.len()];
+    let mut start = 0;
+    for run in edges.half_edges.chunk_by(HalfEdge::same_edge) {
+        let (before, end) = (links.len(), start + run.len());
         link_edge(&edges, run, &mut links);
+        mark_matched(run, &links[before..], &mut matched[start..end]);
+        start = end;
     }
+    link_t_junctions(&edges, &matched, weld, &mut links);
     merge_parallel(links)
+}
+
+/// Marks the half-edges of `run` whose facets occur in `links`.
+fn mark_matched(run: &[HalfEdge], links: &[Link], matched: &mut [bool]) {
+    if let ([first, second], [_]) = (run, links) {
+        debug_assert!(first.reversed != second.reversed);
+        matched.fill(true);
+        return;
+    }
+    let mut linked: Vec<u32> = links.iter().flat_map(|l| [l.a, l.b]).collect();
+    linked.sort_unstable();
+    for (half_edge, matched) in run.iter().zip(matched) {
+        *matched = linked.binary_search(&half_edge.facet).is_ok();
+    }
 }
 
 /// One link for each pair, the shared lengths added.

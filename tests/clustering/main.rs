@@ -1,4 +1,5 @@
 //! The hierarchy: adjacency, face clusters, volume clusters, as laid out and as promised.
 
 mod meshes;
+mod neighbours;
 mod trees;
