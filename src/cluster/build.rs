@@ -1,6 +1,7 @@
 //! Building the scene hierarchy: one line a stage.
 
 use super::adjacency::{WELD, link_neighbours};
+use super::balance::balance;
 use super::face_clustering::cluster_faces;
 use super::flatten::flatten;
 use super::forest::Forest;
@@ -25,7 +26,8 @@ impl Default for ClusterConfig {
 }
 
 /// Builds the hierarchy of `facets` (sides of polygons of `scene`, sorted by polygon and side, each
-/// at most once). Without facets it has no nodes, not even a root.
+/// at most once). Without facets it has no nodes, not even a root. Depth is of the order of the
+/// logarithm of the number of facets (see `balance`), work of facets times depth.
 pub fn build_hierarchy(scene: &Scene, facets: &[Facet], config: &ClusterConfig) -> Hierarchy {
     let Some(bounds) = facet_bounds(scene, facets) else {
         return Hierarchy {
@@ -47,9 +49,11 @@ pub fn build_hierarchy(scene: &Scene, facets: &[Facet], config: &ClusterConfig) 
         &mut forest,
     );
     drop(links);
+    let leaf_bounds = |leaf: u32| Aabb::from_points(scene.corners(facets[leaf as usize].polygon));
+    let mut forest = balance(forest, leaf_bounds);
     let first_volume = forest.len() as u32;
-    let mut pieces = surface_pieces(scene, facets, &forest);
-    let root = cluster_volumes(&mut pieces, &mut forest);
+    let mut pieces = surface_pieces(&forest, leaf_bounds);
+    let root = cluster_volumes(&mut pieces, u8::MAX, &mut forest);
     let flat = flatten(scene, facets, &forest, root, first_volume);
     drop(forest);
     let shapes = cluster_shapes(scene, &flat.facets, &flat.nodes);
@@ -80,12 +84,9 @@ fn measure_facets(scene: &Scene, facets: &[Facet], bounds: Aabb) -> Vec<SurfaceM
 }
 
 /// The trees of the forest with their boxes.
-fn surface_pieces(scene: &Scene, facets: &[Facet], forest: &Forest) -> Vec<Piece> {
+fn surface_pieces(forest: &Forest, leaf_bounds: impl Fn(u32) -> Aabb) -> Vec<Piece> {
     let counts = forest.fold(|_| 1_u32, |a, b| a + b);
-    let bounds = forest.fold(
-        |leaf| Aabb::from_points(scene.corners(facets[leaf as usize].polygon)),
-        Aabb::union,
-    );
+    let bounds = forest.fold(leaf_bounds, Aabb::union);
     let piece = |root: u32| Piece {
         root,
         bounds: bounds[root as usize],

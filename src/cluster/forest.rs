@@ -34,6 +34,21 @@ impl Forest {
         self.leaf_count as usize + self.children.len()
     }
 
+    /// Number of leaves.
+    pub fn leaf_count(&self) -> usize {
+        self.leaf_count as usize
+    }
+
+    /// Step of flatness of a join.
+    pub fn flatness(&self, join: u32) -> u8 {
+        self.flatness[(join - self.leaf_count) as usize]
+    }
+
+    /// The children of a join.
+    pub fn join_children(&self, join: u32) -> [u32; 2] {
+        self.children[(join - self.leaf_count) as usize]
+    }
+
     /// The children of a node, `None` for a leaf.
     pub fn children(&self, node: u32) -> Option<[u32; 2]> {
         node.checked_sub(self.leaf_count)

@@ -1,6 +1,7 @@
 //! The scene hierarchy: face clusters (paper, section 3.1) under volume clusters (section 4).
 
 mod adjacency;
+mod balance;
 mod build;
 mod face_clustering;
 mod flatten;

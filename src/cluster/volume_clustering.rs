@@ -22,14 +22,15 @@ pub(super) struct Piece {
     pub facets: u32,
 }
 
-/// Joins all pieces into one tree and returns its root. There is at least one piece.
-pub(super) fn cluster_volumes(pieces: &mut [Piece], forest: &mut Forest) -> u32 {
+/// Joins all pieces into one tree, whose joins are given `flatness`, and returns its root. There is
+/// at least one piece.
+pub(super) fn cluster_volumes(pieces: &mut [Piece], flatness: u8, forest: &mut Forest) -> u32 {
     // Beyond this depth splits are by count, so that no arrangement of boxes makes a deep tree.
     let patience = 2 * pieces.len().max(2).ilog2() + 8;
-    join(pieces, patience, forest)
+    join(pieces, patience, flatness, forest)
 }
 
-fn join(pieces: &mut [Piece], patience: u32, forest: &mut Forest) -> u32 {
+fn join(pieces: &mut [Piece], patience: u32, flatness: u8, forest: &mut Forest) -> u32 {
     if let [piece] = pieces {
         return piece.root;
     }
@@ -39,8 +40,11 @@ fn join(pieces: &mut [Piece], patience: u32, forest: &mut Forest) -> u32 {
     };
     let (left, right) = pieces.split_at_mut(middle);
     let patience = patience.saturating_sub(1);
-    let children = [join(left, patience, forest), join(right, patience, forest)];
-    forest.join(children, u8::MAX)
+    let children = [
+        join(left, patience, flatness, forest),
+        join(right, patience, flatness, forest),
+    ];
+    forest.join(children, flatness)
 }
 
 fn bin_centre(piece: &Piece) -> Vec3 {

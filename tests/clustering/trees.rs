@@ -221,6 +221,57 @@ fn a_fine_grid_makes_a_shallow_tree() {
     assert!(depth(&hierarchy) <= 30, "{}", depth(&hierarchy));
 }
 
+/// Triangles that stand on the edge of one long triangle and touch nothing else.
+fn comb(teeth: u32, lean: f32) -> Mesh {
+    let mut mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.5, -0.5, 0.0)],
+        triangles: vec![[1, 0, 2]],
+    };
+    for tooth in 0..teeth {
+        let left = tooth as f32 / teeth as f32;
+        let right = left + 0.75 / teeth as f32;
+        let base = mesh.positions.len() as u32;
+        mesh.positions.extend([
+            Vec3::X * left,
+            Vec3::X * right,
+            Vec3::new(left, lean.cos() * 0.25, lean.sin() * 0.25),
+        ]);
+        mesh.triangles.push([base, base + 1, base + 2]);
+    }
+    mesh
+}
+
+#[test]
+fn a_comb_is_one_piece_and_no_chain() {
+    for lean in [0.0, 0.1, 1.0, 3.0] {
+        let scene = comb(5_000, lean).scene();
+        for facets in [fronts(&scene), both_sides(&scene)] {
+            let hierarchy = build(&scene, &facets);
+            assert!(depth(&hierarchy) <= 64, "{}", depth(&hierarchy));
+            let one_sided = facets.len() == scene.polygons.len();
+            let root = hierarchy.node(Hierarchy::ROOT).kind;
+            assert_eq!(root == NodeKind::FaceCluster, one_sided);
+        }
+    }
+}
+
+#[test]
+fn a_book_is_no_chain() {
+    let mut mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::Z],
+        triangles: Vec::new(),
+    };
+    for page in 0..5_000_u32 {
+        let angle = page as f32 * 0.0011;
+        mesh.positions
+            .push(Vec3::new(angle.cos(), angle.sin(), 0.5));
+        mesh.triangles.push([0, 1, page + 2]);
+    }
+    let scene = mesh.scene();
+    let hierarchy = build(&scene, &both_sides(&scene));
+    assert!(depth(&hierarchy) <= 80, "{}", depth(&hierarchy));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
