@@ -1,6 +1,6 @@
 //! Building the scene hierarchy: one line a stage.
 
-use super::adjacency::{WELD, link_neighbours};
+use super::adjacency::link_neighbours;
 use super::balance::balance;
 use super::face_clustering::cluster_faces;
 use super::flatten::flatten;
@@ -9,6 +9,7 @@ use super::hierarchy::Hierarchy;
 use super::shape::cluster_shapes;
 use super::surface_measure::{CostScale, SurfaceMeasure};
 use super::volume_clustering::{Piece, cluster_volumes};
+use super::welded_edges::WELD;
 use crate::math::Aabb;
 use crate::scene::{Facet, Scene};
 

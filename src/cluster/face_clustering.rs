@@ -9,9 +9,9 @@
 //! joined in constant time; parallel links are folded into one when they are met. So a surface with
 //! thousands of neighbours costs no more than its links.
 
-use super::adjacency::Link;
 use super::forest::Forest;
 use super::surface_measure::{Cost, CostScale, SurfaceMeasure};
+use super::welded_edges::Link;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

@@ -3,6 +3,7 @@
 mod adjacency;
 mod balance;
 mod build;
+mod cut;
 mod face_clustering;
 mod flatten;
 mod forest;
@@ -14,7 +15,9 @@ mod t_junction;
 mod validate;
 mod volume_clustering;
 mod weld;
+mod welded_edges;
 
-pub use adjacency::{Link, link_neighbours};
+pub use adjacency::link_neighbours;
 pub use build::{ClusterConfig, build_hierarchy};
 pub use hierarchy::{ClusterShape, Hierarchy, HierarchyDefect, Node, NodeKind};
+pub use welded_edges::Link;

@@ -5,8 +5,8 @@
 //! half-edges without a partner on their own edge look for one here; a mesh without cracks, borders
 //! or T-junctions costs nothing.
 
-use super::adjacency::{HalfEdge, LINKS_PER_HALF_EDGE, Link, WeldedEdges};
 use super::point_tree::PointTree;
+use super::welded_edges::{HalfEdge, LINKS_PER_HALF_EDGE, Link, WeldedEdges};
 use glam::DVec3;
 use std::ops::Range;
 

@@ -2,6 +2,7 @@
 
 mod atomic;
 mod camera;
+mod cluster_colours;
 mod error;
 mod exr_file;
 #[cfg(test)]
@@ -24,6 +25,7 @@ mod view_tests;
 
 pub use atomic::{FileWriter, write_atomically};
 pub use camera::{Camera, CameraError, PinHole};
+pub use cluster_colours::write_cluster_ply;
 pub use error::OutputError;
 pub use exr_file::write_exr;
 pub use picture::{Picture, Pixel};
