@@ -4,6 +4,7 @@ mod assets;
 mod config;
 mod degenerate;
 mod error;
+pub mod generate;
 mod load;
 mod material;
 mod model;
