@@ -5,7 +5,7 @@
 //! corners of its neighbours that lie on its sides as vertices of its own, which leaves no
 //! T-junction.
 
-use super::blocks::{BorderFace, Cell, CellGrid};
+use super::cell_grid::{BorderFace, Cell, CellGrid};
 use super::material::Material;
 use super::mesh::{MaterialId, Mesh};
 use super::weakly_convex::triangulate;

@@ -4,6 +4,7 @@ mod analytic;
 mod blocks;
 mod border;
 mod catalogue;
+mod cell_grid;
 mod dice;
 #[allow(dead_code, unused_imports)]
 mod furniture;

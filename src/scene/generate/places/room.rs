@@ -1,6 +1,7 @@
 //! A rectangular room as furniture sees it: walls to stand against.
 
-use super::super::blocks::{Blocks, BorderFace};
+use super::super::blocks::Blocks;
+use super::super::cell_grid::BorderFace;
 use super::super::material::Material;
 use super::super::placement::Placement;
 
