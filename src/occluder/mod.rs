@@ -1,5 +1,32 @@
-//! Large convex occluders from flat face clusters (paper, section 3).
+//! Occluders: rectangles with a thickness that are certainly covered by opaque surface.
+//!
+//! Paper, section 3.2. The stages, one file each: flat clusters (`candidate`) -> oriented
+//! sheet of projected triangles -> welded boundary -> footprint -> bounding rectangle -> quadtree
+//! -> grown rectangles -> occluders checked in exact arithmetic.
 
+mod boundary;
+mod bounding_rectangle;
+mod candidate;
+mod config;
+mod extract;
+mod footprint;
+mod frame;
+mod grow;
+mod point_grid;
+mod quadtree;
+mod rectangle;
+mod set;
+mod sheet;
+mod simplify;
 mod slab;
+mod thicken;
+mod weld;
 
+#[cfg(test)]
+mod tests;
+
+pub use candidate::flat_clusters;
+pub use config::OccluderConfig;
+pub use extract::extract_occluders;
+pub use set::{Occluder, OccluderSet, OccluderStatistics};
 pub use slab::SlabRectangle;
