@@ -8,6 +8,7 @@ mod exr_file;
 #[cfg(test)]
 mod fixture;
 mod mean_value;
+mod occluder_mesh;
 mod panel;
 mod picture;
 mod ply_reader;
@@ -28,6 +29,7 @@ pub use camera::{Camera, CameraError, PinHole};
 pub use cluster_colours::write_cluster_ply;
 pub use error::OutputError;
 pub use exr_file::write_exr;
+pub use occluder_mesh::{OccluderSummary, write_occluders};
 pub use picture::{Picture, Pixel};
 pub use ply_reader::read_ply;
 pub use ply_writer::write_ply;
