@@ -90,7 +90,7 @@ fn extract_cluster(
     };
     let mut kept: Vec<Rectangle> = Vec::new();
     for rectangle in grown {
-        if !rectangle.is_covered_by(&footprint) {
+        if !footprint.covers_rectangle(&rectangle) {
             found.rejected += 1;
             continue;
         }

@@ -7,7 +7,7 @@
 //! the triangles must hang together ([`super::sheet`]), so *every* edge of the boundary is an
 //! obstacle, whatever covers the plane beside it.
 
-use super::rectangle::Rectangle;
+use super::rectangle::{Rectangle, winding};
 use super::sheet::Sheet;
 use super::simplify::simplify_inwards;
 use super::weld::close_cracks;
@@ -90,6 +90,14 @@ impl Footprint {
     /// Covered area; where a continuous sheet overlaps itself, each layer counts.
     pub fn area(&self) -> f64 {
         (0.5 * self.edges.iter().map(|[a, b]| a.perp_dot(*b)).sum::<f64>()).abs()
+    }
+
+    /// True when the rectangle's interior is certainly covered: no edge enters it, and its centre is
+    /// covered. Exact on the numbers given.
+    pub fn covers_rectangle(&self, rectangle: &Rectangle) -> bool {
+        rectangle.min.cmplt(rectangle.max).all()
+            && !self.edges.iter().any(|&edge| rectangle.is_crossed_by(edge))
+            && self.covers(winding(&self.edges, rectangle.centre()))
     }
 
     /// True when a point with this winding number is covered.

@@ -1,6 +1,5 @@
-//! Axis-aligned rectangles of the plane, and the exact check that a footprint covers one.
+//! Axis-aligned rectangles of the plane, and exact predicates on edges.
 
-use super::footprint::Footprint;
 use glam::DVec2;
 use robust::{Coord, orient2d};
 
@@ -58,14 +57,6 @@ impl Rectangle {
         ];
         let sides = corners.map(|c| side(a, b, c));
         sides.iter().any(|&s| s > 0.0) && sides.iter().any(|&s| s < 0.0)
-    }
-
-    /// True when the footprint certainly covers the interior: no edge enters it, and its centre is
-    /// covered. Exact on the numbers given.
-    pub fn is_covered_by(&self, footprint: &Footprint) -> bool {
-        self.min.cmplt(self.max).all()
-            && !footprint.edges.iter().any(|&edge| self.is_crossed_by(edge))
-            && footprint.covers(winding(&footprint.edges, self.centre()))
     }
 }
 
