@@ -117,14 +117,23 @@ fn header_version(config: &Path) -> Option<u32> {
 }
 
 fn compile_shim(embree: &Embree) {
+    compile_c(embree, "certilux_embree");
+    if env::var_os("CARGO_FEATURE_C_BASELINE").is_some() {
+        compile_c(embree, "c_baseline");
+    }
+}
+
+/// Compiles `ffi/NAME.c` into a static library of its own.
+fn compile_c(embree: &Embree, name: &str) {
     cc::Build::new()
-        .file("ffi/certilux_embree.c")
+        .file(format!("ffi/{name}.c"))
         .include("ffi")
         .include(&embree.include)
         .std("c11")
+        // The per-ray loops are in C: never unoptimised, whatever the profile.
         .opt_level(3)
         .warnings_into_errors(true)
-        .compile("certilux_embree_shim");
+        .compile(name);
 }
 
 fn bind_shim(embree: &Embree) {

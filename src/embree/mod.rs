@@ -11,6 +11,8 @@
 #![allow(unsafe_code)]
 
 mod all_hits;
+#[cfg(feature = "c-baseline")]
+mod c_baseline;
 mod device;
 mod error;
 mod hits;
@@ -20,6 +22,8 @@ mod scene;
 mod shim;
 
 pub use all_hits::{AllHitsScene, RayHit};
+#[cfg(feature = "c-baseline")]
+pub use c_baseline::{CBaseline, SingleRay};
 pub use device::{Device, DeviceConfig};
 pub use error::{EmbreeError, EmbreeErrorKind, EmbreeVersion};
 pub use hits::Hit;

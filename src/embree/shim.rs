@@ -128,5 +128,6 @@ const _: () = {
     );
     assert!(sys::RTCDeviceProperty::VERSION as u32 == CERTILUX_DEVICE_PROPERTY_VERSION);
     assert!(sys::RTCRayQueryFlags::INCOHERENT.0 == CERTILUX_RAY_QUERY_INCOHERENT);
+    assert!(sys::RTCFeatureFlags::RTC_FEATURE_FLAG_ALL.0 == CERTILUX_FEATURE_FLAG_ALL);
     assert!(sys::RTCRayQueryFlags::COHERENT.0 == CERTILUX_RAY_QUERY_COHERENT);
 };
