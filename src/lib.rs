@@ -11,3 +11,4 @@ pub mod occluder;
 pub mod output;
 pub mod scene;
 pub mod solve;
+pub mod visibility;

@@ -1,0 +1,12 @@
+//! Judges in exact arithmetic, for the audit and for tests: what they say is so.
+
+mod dyadic;
+mod occlusion_claim;
+mod segment;
+mod visibility_claim;
+
+pub use occlusion_claim::{OcclusionFlaw, replay_occlusion};
+pub use segment::{surely_blocked, surely_clear_of};
+pub use visibility_claim::{
+    PolygonStanding, hull_is_separated, judge_polygon, visibility_counterexample,
+};

@@ -1,0 +1,346 @@
+//! Full visibility of a pair: nothing in the scene meets the shaft (paper, section 5.1).
+//!
+//! The walk drops every box outside the shaft and every polygon that cannot block, and ends as soon
+//! as it finds a box wholly inside or a polygon that may block. No polygon is excused by identity:
+//! those of a planar element drop out because the element lies in their plane
+//! ([`super::crossing`]), and those of a curved one stay, because self-occlusion is real.
+
+use super::bounds::ElementBounds;
+use super::crossing::{has_depth_on_both_sides, may_block};
+use super::faults::Faults;
+use super::scene_tree::SceneTree;
+use super::shaft::Shaft;
+use super::shaft_planes::shaft_between;
+use super::survivors::{SurvivorEntry, SurvivorList, SurvivorOctet};
+use super::verdict::Verdict;
+use super::wide_tree::{BoxOctet, ChildRef};
+use crate::math::PolygonId;
+use pulp::Arch;
+
+/// When a walk gives up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WalkLimits {
+    /// Stop at this many leaves that hold a polygon in the way (at least 1). More than 1 makes the
+    /// list that is handed down sharper, for [`super::BlockerList`].
+    pub blocking_leaves: u32,
+    /// Stop after this many nodes and leaves.
+    pub nodes: u32,
+}
+
+impl Default for WalkLimits {
+    /// Stop at the first obstacle, however long that takes.
+    fn default() -> Self {
+        Self {
+            blocking_leaves: 1,
+            nodes: u32::MAX,
+        }
+    }
+}
+
+/// The outcome of [`VisibilityQuery::run`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VisibilityAnswer {
+    /// [`Verdict::Visible`] or [`Verdict::Unknown`].
+    pub verdict: Verdict,
+    /// A polygon that may block, where the walk came down to one.
+    pub obstacle: Option<PolygonId>,
+    /// True if the walk saw everything: the survivors are exactly the polygons in the way, leaf by
+    /// leaf, and no node among them.
+    pub complete: bool,
+    /// Nodes, leaves and list octets tested.
+    pub nodes: u32,
+    /// Polygons that went through the slow test.
+    pub polygons: u32,
+}
+
+/// What a caller lends to queries, so that none allocates. One a task.
+#[derive(Clone, Debug, Default)]
+pub struct VisibilityScratch {
+    stack: Vec<Pending>,
+}
+
+/// A child still to be opened, and where its box is found.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    entry: SurvivorEntry,
+    home: BoxHome,
+    lane: u32,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum BoxHome {
+    Node(u32),
+    Incoming(u32),
+}
+
+/// Full-visibility queries against one scene.
+#[derive(Clone, Debug)]
+pub struct VisibilityQuery<'a> {
+    scene: &'a SceneTree,
+    faults: Faults,
+    arch: Arch,
+}
+
+impl<'a> VisibilityQuery<'a> {
+    /// Queries against `scene`.
+    pub fn new(scene: &'a SceneTree) -> Self {
+        Self {
+            scene,
+            faults: Faults::NONE,
+            arch: Arch::new(),
+        }
+    }
+
+    /// The same queries with faults planted.
+    #[cfg(any(test, feature = "plant-faults"))]
+    #[must_use]
+    pub fn with_faults(mut self, faults: Faults) -> Self {
+        self.faults = faults;
+        self
+    }
+
+    /// Tests whether every segment between `a` and `b` is free of the polygons in `incoming`, which
+    /// has to be the list of the whole scene or of a pair whose elements contain these two.
+    ///
+    /// `outgoing` is replaced by what may still block: complete for this pair and every pair below
+    /// it, obstacles first. It is empty exactly if the verdict is [`Verdict::Visible`].
+    pub fn run(
+        &self,
+        a: &ElementBounds,
+        b: &ElementBounds,
+        incoming: &SurvivorList,
+        outgoing: &mut SurvivorList,
+        limits: WalkLimits,
+        scratch: &mut VisibilityScratch,
+    ) -> VisibilityAnswer {
+        self.arch.dispatch(
+            #[inline(always)]
+            || {
+                let mut walk = Walk {
+                    query: self,
+                    a,
+                    b,
+                    shaft: shaft_between(a, b, &self.scene.tolerance),
+                    incoming,
+                    outgoing,
+                    limits,
+                    stack: &mut scratch.stack,
+                    blocking_leaves: 0,
+                    answer: VisibilityAnswer {
+                        verdict: Verdict::Unknown,
+                        obstacle: None,
+                        complete: false,
+                        nodes: 0,
+                        polygons: 0,
+                    },
+                };
+                walk.run();
+                walk.answer
+            },
+        )
+    }
+}
+
+struct Walk<'a> {
+    query: &'a VisibilityQuery<'a>,
+    a: &'a ElementBounds,
+    b: &'a ElementBounds,
+    shaft: Shaft,
+    incoming: &'a SurvivorList,
+    outgoing: &'a mut SurvivorList,
+    limits: WalkLimits,
+    stack: &'a mut Vec<Pending>,
+    blocking_leaves: u32,
+    answer: VisibilityAnswer,
+}
+
+impl Walk<'_> {
+    #[inline(always)]
+    fn run(&mut self) {
+        self.outgoing.clear();
+        self.stack.clear();
+        let incoming = self.incoming;
+        for (index, octet) in incoming.octets.iter().enumerate() {
+            let met = self.open_octet(index as u32, octet);
+            if !met || !self.drain() {
+                self.hand_down(index + 1);
+                return;
+            }
+        }
+        self.answer.complete = true;
+        if self.outgoing.is_empty() {
+            self.answer.verdict = Verdict::Visible;
+        }
+    }
+
+    /// Stacks the entries of an octet that meet the shaft; false if the walk is over.
+    #[inline(always)]
+    fn open_octet(&mut self, index: u32, octet: &SurvivorOctet) -> bool {
+        let met = self.shaft.meets_boxes(&octet.boxes);
+        let home = BoxHome::Incoming(index);
+        self.stack_children(met, &octet.boxes, home, |lane| octet.entries[lane])
+    }
+
+    /// Stacks children so that the lowest lane is opened first; false if one lies wholly inside
+    /// the shaft, which ends the walk with that one handed down first.
+    #[inline(always)]
+    fn stack_children(
+        &mut self,
+        met: u32,
+        boxes: &BoxOctet,
+        home: BoxHome,
+        entry: impl Fn(usize) -> SurvivorEntry,
+    ) -> bool {
+        self.answer.nodes += 1;
+        if met == 0 {
+            return true;
+        }
+        let inside = self.shaft.contains_boxes(boxes, met);
+        let mut rest = met;
+        while rest != 0 {
+            let lane = 31 - rest.leading_zeros();
+            rest &= !(1 << lane);
+            self.stack.push(Pending {
+                entry: entry(lane as usize),
+                home,
+                lane,
+            });
+        }
+        if inside == 0 || self.limits.blocking_leaves > 1 {
+            return true;
+        }
+        let lane = inside.trailing_zeros() as usize;
+        self.outgoing.push(boxes.get(lane), entry(lane));
+        self.stack
+            .retain(|p| !(p.lane == lane as u32 && same_home(p.home, home)));
+        false
+    }
+
+    /// Opens everything on the stack; false if the walk is over.
+    #[inline(always)]
+    fn drain(&mut self) -> bool {
+        let scene = self.query.scene;
+        while let Some(pending) = self.stack.pop() {
+            if self.answer.nodes >= self.limits.nodes {
+                self.stack.push(pending);
+                return false;
+            }
+            let reference = pending.entry.reference();
+            if reference.is_leaf() {
+                if !self.open_leaf(reference, pending.entry.lanes) {
+                    return false;
+                }
+                continue;
+            }
+            let node = &scene.tree.nodes[reference.index()];
+            let met = self.shaft.meets_boxes(&node.boxes);
+            let home = BoxHome::Node(reference.index() as u32);
+            let go_on = self.stack_children(met, &node.boxes, home, |lane| {
+                let child = node.children[lane];
+                let lanes = if child.is_leaf() {
+                    scene.used_lanes(child.index())
+                } else {
+                    0
+                };
+                SurvivorEntry::new(child, lanes)
+            });
+            if !go_on {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Tests the polygons of a leaf; false if the walk is over. What may block, and what was not
+    /// looked at any more, goes down.
+    #[inline(always)]
+    fn open_leaf(&mut self, leaf: ChildRef, lanes: u32) -> bool {
+        let scene = self.query.scene;
+        self.answer.nodes += 1;
+        let (met, deep) = self.shaft.meets_triangles(&scene.octets[leaf.index()]);
+        let mut candidates = met & lanes;
+        let mut blocking = 0;
+        let collect = self.limits.blocking_leaves > 1;
+        while candidates != 0 && (collect || blocking == 0) {
+            let lane = candidates.trailing_zeros() as usize;
+            candidates &= candidates - 1;
+            let polygon = &scene.polygons[8 * leaf.index() + lane];
+            self.answer.polygons += 1;
+            if self.query.faults.forgets_slivers() && is_sliver(polygon.corners) {
+                continue;
+            }
+            // With a corner deep inside the shaft only its plane can excuse a polygon.
+            let blocks = if deep & (1 << lane) != 0 {
+                has_depth_on_both_sides(polygon.corners, self.a, self.b, &scene.tolerance)
+            } else {
+                may_block(polygon.corners, self.a, self.b, &scene.tolerance)
+            };
+            if blocks {
+                blocking |= 1 << lane;
+                self.answer.obstacle = Some(polygon.id);
+            }
+        }
+        let kept = blocking | candidates;
+        if blocking == 0 {
+            return true;
+        }
+        self.push_leaf(leaf, kept);
+        self.blocking_leaves += 1;
+        self.blocking_leaves < self.limits.blocking_leaves
+    }
+
+    fn push_leaf(&mut self, leaf: ChildRef, lanes: u32) {
+        let scene = self.query.scene;
+        let bounds = (0..8)
+            .filter(|lane| lanes & (1 << lane) != 0)
+            .map(|lane| scene.polygon_box(leaf.index(), lane))
+            .reduce(crate::math::Aabb::union);
+        if let Some(bounds) = bounds {
+            self.outgoing.push(bounds, SurvivorEntry::new(leaf, lanes));
+        }
+    }
+
+    /// After an early stop: everything not looked at goes down, or the list would not be complete.
+    #[inline(always)]
+    fn hand_down(&mut self, next_octet: usize) {
+        if self.query.faults.cuts_survivors() {
+            return;
+        }
+        for pending in self.stack.drain(..) {
+            let boxes = match pending.home {
+                BoxHome::Node(node) => &self.query.scene.tree.nodes[node as usize].boxes,
+                BoxHome::Incoming(octet) => &self.incoming.octets[octet as usize].boxes,
+            };
+            self.outgoing
+                .push(boxes.get(pending.lane as usize), pending.entry);
+        }
+        for octet in &self.incoming.octets[next_octet..] {
+            let mut met = self.shaft.meets_boxes(&octet.boxes);
+            while met != 0 {
+                let lane = met.trailing_zeros() as usize;
+                met &= met - 1;
+                self.outgoing
+                    .push(octet.boxes.get(lane), octet.entries[lane]);
+            }
+        }
+    }
+}
+
+fn same_home(a: BoxHome, b: BoxHome) -> bool {
+    match (a, b) {
+        (BoxHome::Node(a), BoxHome::Node(b)) | (BoxHome::Incoming(a), BoxHome::Incoming(b)) => {
+            a == b
+        }
+        _ => false,
+    }
+}
+
+/// For the planted fault only: more than twenty times longer than wide.
+fn is_sliver(corners: [glam::Vec3; 3]) -> bool {
+    let [a, b, c] = corners;
+    let longest = (b - a)
+        .length_squared()
+        .max((c - b).length_squared())
+        .max((a - c).length_squared());
+    (b - a).cross(c - a).length() < longest / 20.0
+}

@@ -1,0 +1,37 @@
+//! Guaranteed occluded, guaranteed visible, or unknown (paper, section 5).
+
+mod bounds;
+mod crossing;
+pub mod exact;
+mod faults;
+mod full_visibility;
+mod occluder_tree;
+mod occlusion;
+mod scene_tree;
+mod shaft;
+mod shaft_planes;
+mod survivors;
+mod tolerance;
+mod verdict;
+mod wide_tree;
+mod wide_tree_builder;
+
+pub use bounds::{BoundsShape, ElementBounds};
+pub use faults::Faults;
+pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
+pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
+pub use occlusion::OccluderFaces;
+pub use scene_tree::SceneTree;
+pub use survivors::SurvivorList;
+pub use tolerance::Tolerance;
+pub use verdict::Verdict;
+pub use wide_tree::WideTreeDefect;
+
+#[cfg(test)]
+mod nasty_pairs;
+#[cfg(test)]
+mod nasty_scenes;
+#[cfg(test)]
+mod occlusion_proofs;
+#[cfg(test)]
+mod visibility_proofs;

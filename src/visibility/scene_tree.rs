@@ -1,0 +1,163 @@
+//! The scene's polygons in an eight-wide hierarchy, for shafts and for native segments.
+//!
+//! What the shaft meets is not the polygon but the polygon *pulled in* by most of the weld distance:
+//! a segment is surely blocked only where it crosses more than `weld` inside the border, so a
+//! polygon that merely shares an edge with the shaft (every neighbour of an element does) drops out,
+//! and no identity of polygons is needed to say so.
+
+use super::shaft::TriangleOctet;
+use super::tolerance::Tolerance;
+use super::wide_tree::{BoxOctet, ChildRef, WideLeaf, WideTree};
+use crate::math::{Aabb, PolygonId};
+use crate::scene::Scene;
+use glam::{DVec3, Vec3};
+
+/// The polygons of a scene, ready to be queried.
+#[derive(Clone, Debug)]
+pub struct SceneTree {
+    pub(super) tree: WideTree,
+    /// Pulled-in polygons of each leaf.
+    pub(super) octets: Vec<TriangleOctet>,
+    /// The polygons as they are, leaf by leaf: those of leaf `i` start at `8 i`.
+    pub(super) polygons: Vec<StoredPolygon>,
+    pub(super) tolerance: Tolerance,
+    bounds: Aabb,
+}
+
+/// A polygon of a leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StoredPolygon {
+    pub corners: [Vec3; 3],
+    pub id: PolygonId,
+}
+
+impl StoredPolygon {
+    const NONE: Self = Self {
+        corners: [Vec3::ZERO; 3],
+        id: PolygonId(u32::MAX),
+    };
+}
+
+/// Share of the weld distance by which polygons are pulled in. The rest, a quarter of 1e-6 of the
+/// diagonal, is more than rounding the pulled-in corners to f32 can move them (5.2e-8 of it).
+const PULL: f64 = 0.75;
+
+/// Polygons whose inscribed circle is smaller than this many weld distances stay as they are: many
+/// slivers side by side are a wall too, and pulling all of them in would open it.
+const LEAST_INRADIUS: f64 = 16.0;
+
+/// `corners` moved inwards by [`PULL`] `weld`: the triangle shrunk about its incentre, in f64. The
+/// same triangle where it is too thin.
+pub(super) fn pulled_in(corners: [Vec3; 3], weld: f32) -> [DVec3; 3] {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let (la, lb, lc) = ((b - c).length(), (c - a).length(), (a - b).length());
+    let perimeter = la + lb + lc;
+    let inradius = (b - a).cross(c - a).length() / perimeter;
+    let weld = f64::from(weld);
+    // Written so that NaN, of a polygon shrunk to a point, keeps it as it is.
+    let wide = inradius > LEAST_INRADIUS * weld;
+    if !wide {
+        return [a, b, c];
+    }
+    let incentre = (a * la + b * lb + c * lc) / perimeter;
+    let keep = 1.0 - PULL * weld / inradius;
+    [a, b, c].map(|p| incentre + (p - incentre) * keep)
+}
+
+impl SceneTree {
+    /// The hierarchy over all polygons of `scene`.
+    pub fn build(scene: &Scene) -> Self {
+        let tolerance = Tolerance::of_scene(scene.bounds());
+        let corners: Vec<[Vec3; 3]> = (0..scene.polygons.len())
+            .map(|i| scene.corners(PolygonId::new(i)))
+            .collect();
+        Self::over_triangles(&corners, tolerance)
+    }
+
+    /// The hierarchy over loose triangles, whose indices become their ids.
+    pub fn over_triangles(triangles: &[[Vec3; 3]], tolerance: Tolerance) -> Self {
+        let pulled: Vec<[Vec3; 3]> = triangles
+            .iter()
+            .map(|&t| pulled_in(t, tolerance.weld).map(|p| p.as_vec3()))
+            .collect();
+        let boxes: Vec<Aabb> = pulled.iter().map(|&t| Aabb::from_points(t)).collect();
+        let tree = WideTree::build(&boxes);
+        let octets = tree
+            .leaves
+            .iter()
+            .map(|leaf| octet_of(leaf, &pulled))
+            .collect();
+        let polygons = tree
+            .leaves
+            .iter()
+            .flat_map(|leaf| leaf.primitives)
+            .map(|id| match id {
+                WideLeaf::NONE => StoredPolygon::NONE,
+                _ => StoredPolygon {
+                    corners: triangles[id as usize],
+                    id: PolygonId(id),
+                },
+            })
+            .collect();
+        Self {
+            tree,
+            octets,
+            polygons,
+            tolerance,
+            bounds: boxes.iter().fold(Aabb::EMPTY, |b, &x| b.union(x)),
+        }
+    }
+
+    /// The tolerances of the scene.
+    pub fn tolerance(&self) -> &Tolerance {
+        &self.tolerance
+    }
+
+    /// The box of everything.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.tree.bytes()
+            + self.octets.len() * size_of::<TriangleOctet>()
+            + self.polygons.len() * size_of::<StoredPolygon>()
+    }
+
+    /// The box and reference of the root, where there is any polygon.
+    pub(super) fn root(&self) -> Option<(ChildRef, Aabb)> {
+        (!self.tree.nodes.is_empty()).then_some((ChildRef::node(0), self.bounds))
+    }
+
+    /// Bit per lane of a leaf that holds a polygon.
+    pub(super) fn used_lanes(&self, leaf: usize) -> u32 {
+        (1 << self.tree.leaves[leaf].len()) - 1
+    }
+
+    /// The box of a pulled-in polygon.
+    pub(super) fn polygon_box(&self, leaf: usize, lane: usize) -> Aabb {
+        let octet = &self.octets[leaf].corners;
+        Aabb::from_points(
+            octet
+                .iter()
+                .map(|c| Vec3::new(c[0][lane], c[1][lane], c[2][lane])),
+        )
+    }
+}
+
+fn octet_of(leaf: &WideLeaf, pulled: &[[Vec3; 3]]) -> TriangleOctet {
+    // Unused lanes lie where every shaft has them outside.
+    let far = BoxOctet::EMPTY.min[0][0];
+    let mut octet = TriangleOctet {
+        corners: [[[far; 8]; 3]; 3],
+    };
+    for (lane, &id) in leaf.primitives[..leaf.len()].iter().enumerate() {
+        for (corner, &p) in octet.corners.iter_mut().zip(&pulled[id as usize]) {
+            for axis in 0..3 {
+                corner[axis][lane] = p[axis];
+            }
+        }
+    }
+    octet
+}

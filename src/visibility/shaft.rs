@@ -1,0 +1,237 @@
+//! The shaft between two elements: the convex hull of their bounds, as planes (Haines and Wallace
+//! 1991), and what boxes and polygons have to do with it.
+//!
+//! Soundness does not hang on the planes' directions: whatever a normal is, its offset is the
+//! greatest value over all corners of both elements plus the margins, so the shaft always contains
+//! the hull. Only how tight it is hangs on the directions, which [`super::shaft_planes`] chooses.
+
+// Lanes of several arrays run in step: an index says so, and is what vectorises.
+#![allow(clippy::needless_range_loop)]
+
+use super::bounds::{BoundsShape, ElementBounds};
+use super::tolerance::Tolerance;
+use super::wide_tree::BoxOctet;
+use glam::Vec3;
+
+/// Unit roundoff of f32.
+const U: f32 = 1.0 / 16_777_216.0;
+
+/// Most slanted planes of a shaft: 8 edges of each element and both caps are 18; 6 more where a box
+/// is involved.
+pub(super) const MAX_PLANES: usize = 24;
+
+/// Half-spaces `normal . x <= offset` that all contain the shaft, besides the box of the union.
+#[derive(Clone, Debug)]
+pub(super) struct Shaft {
+    normals: [Vec3; MAX_PLANES],
+    offsets: [f32; MAX_PLANES],
+    /// What a point has to be below to be inside by far more than any margin.
+    inner_offsets: [f32; MAX_PLANES],
+    count: usize,
+    low: Vec3,
+    high: Vec3,
+    inner_low: Vec3,
+    inner_high: Vec3,
+    rounding: f32,
+    nesting: f32,
+    clearance: f32,
+}
+
+/// Eight triangles in structure-of-arrays form.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct TriangleOctet {
+    /// `corners[i][axis][lane]`.
+    pub corners: [[[f32; 8]; 3]; 3],
+}
+
+impl Shaft {
+    /// The box of the union and no plane yet.
+    ///
+    /// Margins. A point `x` of the *scene as stored* is off the true one by at most `u reach` a
+    /// coordinate (see [`super::scene_tree`]); an element's point is off its bounds by at most
+    /// `nesting`. Evaluating `normal . x` for both sides of a comparison costs `3 u |n|_1 reach`
+    /// each, so `8 u |n|_1 reach + |n| nesting` covers the stored point as well.
+    #[inline(always)]
+    pub(super) fn new(a: &ElementBounds, b: &ElementBounds, tolerance: &Tolerance) -> Self {
+        let union = a.aabb.union(b.aabb);
+        let rounding = 8.0 * U * tolerance.reach;
+        let margin = Vec3::splat(rounding + tolerance.nesting);
+        // Flat clusters carry their thickness of a few tau in their bounds: their own polygons
+        // must not count as being inside.
+        let clearance = 8.0 * tolerance.tau + 2.0 * rounding;
+        let inner = Vec3::splat(clearance);
+        Self {
+            normals: [Vec3::ZERO; MAX_PLANES],
+            offsets: [0.0; MAX_PLANES],
+            inner_offsets: [0.0; MAX_PLANES],
+            count: 0,
+            low: union.min - margin,
+            high: union.max + margin,
+            inner_low: union.min + inner,
+            inner_high: union.max - inner,
+            rounding,
+            nesting: tolerance.nesting,
+            clearance,
+        }
+    }
+
+    /// Adds the plane with this outward normal (any length, not zero) that touches the hull.
+    #[inline(always)]
+    pub(super) fn push(&mut self, normal: Vec3, a: &ElementBounds, b: &ElementBounds) {
+        if self.count == MAX_PLANES {
+            return;
+        }
+        let touch = support(normal, a).max(support(normal, b));
+        let length = normal.length();
+        let margin = self.rounding * normal.abs().element_sum() + 1.0001 * self.nesting * length;
+        self.normals[self.count] = normal;
+        self.offsets[self.count] = touch + margin;
+        self.inner_offsets[self.count] = touch - self.clearance * length;
+        self.count += 1;
+    }
+
+    /// Bit per lane: the box may meet the shaft.
+    #[inline(always)]
+    pub(super) fn meets_boxes(&self, boxes: &BoxOctet) -> u32 {
+        let mut out = [0_u32; 8];
+        for axis in 0..3 {
+            let (low, high) = (self.low[axis], self.high[axis]);
+            for l in 0..8 {
+                out[l] |=
+                    u32::from(boxes.min[axis][l] > high) | u32::from(boxes.max[axis][l] < low);
+            }
+        }
+        if all_set(&out) {
+            return 0;
+        }
+        for k in 0..self.count {
+            let (n, offset) = (self.normals[k], self.offsets[k]);
+            let [x, y, z] = extreme_corners(boxes, n, false);
+            for l in 0..8 {
+                let height = n.x * x[l] + n.y * y[l] + n.z * z[l];
+                out[l] |= u32::from(height > offset);
+            }
+        }
+        clear_lanes(&out)
+    }
+
+    /// Bit per lane: the box lies inside the shaft, away from its border. Unused lanes are not.
+    #[inline(always)]
+    pub(super) fn contains_boxes(&self, boxes: &BoxOctet, lanes: u32) -> u32 {
+        let mut out = [0_u32; 8];
+        for axis in 0..3 {
+            let (low, high) = (self.inner_low[axis], self.inner_high[axis]);
+            for l in 0..8 {
+                out[l] |=
+                    u32::from(boxes.max[axis][l] > high) | u32::from(boxes.min[axis][l] < low);
+            }
+        }
+        for k in 0..self.count {
+            if clear_lanes(&out) & lanes == 0 {
+                return 0;
+            }
+            let (n, offset) = (self.normals[k], self.inner_offsets[k]);
+            let [x, y, z] = extreme_corners(boxes, n, true);
+            for l in 0..8 {
+                let height = n.x * x[l] + n.y * y[l] + n.z * z[l];
+                out[l] |= u32::from(height > offset);
+            }
+        }
+        clear_lanes(&out) & lanes
+    }
+
+    /// Two masks: the triangle may meet the shaft (no plane of the shaft has it outside), and a
+    /// corner of the triangle lies inside, away from the border.
+    #[inline(always)]
+    pub(super) fn meets_triangles(&self, triangles: &TriangleOctet) -> (u32, u32) {
+        let mut out = [0_u32; 8];
+        let mut corner_out = [[0_u32; 8]; 3];
+        let c = &triangles.corners;
+        for axis in 0..3 {
+            let (low, high) = (self.low[axis], self.high[axis]);
+            let (inner_low, inner_high) = (self.inner_low[axis], self.inner_high[axis]);
+            for l in 0..8 {
+                let (p, q, r) = (c[0][axis][l], c[1][axis][l], c[2][axis][l]);
+                out[l] |= u32::from((p > high) & (q > high) & (r > high))
+                    | u32::from((p < low) & (q < low) & (r < low));
+                corner_out[0][l] |= u32::from((p > inner_high) | (p < inner_low));
+                corner_out[1][l] |= u32::from((q > inner_high) | (q < inner_low));
+                corner_out[2][l] |= u32::from((r > inner_high) | (r < inner_low));
+            }
+        }
+        for k in 0..self.count {
+            let n = self.normals[k];
+            let (offset, inner) = (self.offsets[k], self.inner_offsets[k]);
+            let mut height = [[0.0_f32; 8]; 3];
+            for (height, c) in height.iter_mut().zip(c) {
+                for l in 0..8 {
+                    height[l] = n.x * c[0][l] + n.y * c[1][l] + n.z * c[2][l];
+                }
+            }
+            for l in 0..8 {
+                out[l] |= u32::from(
+                    (height[0][l] > offset) & (height[1][l] > offset) & (height[2][l] > offset),
+                );
+                corner_out[0][l] |= u32::from(height[0][l] > inner);
+                corner_out[1][l] |= u32::from(height[1][l] > inner);
+                corner_out[2][l] |= u32::from(height[2][l] > inner);
+            }
+        }
+        let meets = clear_lanes(&out);
+        let corner_inside =
+            clear_lanes(&corner_out[0]) | clear_lanes(&corner_out[1]) | clear_lanes(&corner_out[2]);
+        (meets, corner_inside & meets)
+    }
+}
+
+/// Greatest `normal . x` over the corners, as evaluated in f32.
+#[inline(always)]
+fn support(normal: Vec3, bounds: &ElementBounds) -> f32 {
+    if bounds.shape() == BoundsShape::Box {
+        let pick = |axis: usize| {
+            if normal[axis] > 0.0 {
+                bounds.aabb.max[axis]
+            } else {
+                bounds.aabb.min[axis]
+            }
+        };
+        return normal.x * pick(0) + normal.y * pick(1) + normal.z * pick(2);
+    }
+    let mut height = [0.0_f32; 8];
+    for l in 0..8 {
+        height[l] = normal.x * bounds.x[l] + normal.y * bounds.y[l] + normal.z * bounds.z[l];
+    }
+    let mut greatest = height[0];
+    for h in height {
+        greatest = if h > greatest { h } else { greatest };
+    }
+    greatest
+}
+
+/// The coordinates of each box's corner that lies least (or most) far along `normal`.
+#[inline(always)]
+fn extreme_corners(boxes: &BoxOctet, normal: Vec3, farthest: bool) -> [&[f32; 8]; 3] {
+    std::array::from_fn(|axis| {
+        if (normal[axis] > 0.0) == farthest {
+            &boxes.max[axis]
+        } else {
+            &boxes.min[axis]
+        }
+    })
+}
+
+#[inline(always)]
+fn all_set(lanes: &[u32; 8]) -> bool {
+    lanes.iter().fold(1, |all, l| all & l) == 1
+}
+
+/// Bit per lane that is zero.
+#[inline(always)]
+fn clear_lanes(lanes: &[u32; 8]) -> u32 {
+    let mut mask = 0;
+    for (l, &lane) in lanes.iter().enumerate() {
+        mask |= u32::from(lane == 0) << l;
+    }
+    mask
+}
