@@ -18,11 +18,18 @@ use crate::scene::{Facet, Scene};
 pub struct ClusterConfig {
     /// Width of the cracks that count as closed, over the diagonal of the scene.
     pub weld: f64,
+    /// Half-angle in radians beyond which neighbours are joined by volume clusters and no longer by
+    /// face clusters; pi makes every connected surface one face cluster. About: the spread of
+    /// normals that contraction knows is an upper bound.
+    pub widest: f64,
 }
 
 impl Default for ClusterConfig {
     fn default() -> Self {
-        Self { weld: WELD }
+        Self {
+            weld: WELD,
+            widest: std::f64::consts::PI,
+        }
     }
 }
 
@@ -47,6 +54,7 @@ pub fn build_hierarchy(scene: &Scene, facets: &[Facet], config: &ClusterConfig) 
         measures,
         &links,
         CostScale::new(diagonal, config.weld * diagonal, area),
+        config.widest,
         &mut forest,
     );
     drop(links);

@@ -19,19 +19,25 @@ use std::collections::BinaryHeap;
 const NONE: u32 = u32::MAX;
 
 /// Contracts the dual graph given by `links` (indices below `measures.len()`) and adds one tree
-/// for each connected surface to `forest`, whose leaves are the facets.
+/// for each connected surface to `forest`, whose leaves are the facets: or several, where joining
+/// them would spread normals by more than `widest` radians about their mean.
 pub(super) fn cluster_faces(
     measures: Vec<SurfaceMeasure>,
     links: &[Link],
     scale: CostScale,
+    widest: f64,
     forest: &mut Forest,
 ) {
+    let last_step = Cost::widest(widest);
     let mut contraction = Contraction::new(measures, links, scale);
     let mut queue: BinaryHeap<Reverse<(Cost, u32)>> = (0..links.len() as u32)
         .map(|link| Reverse((contraction.evaluate(link).1, link)))
         .collect::<Vec<_>>()
         .into();
     while let Some(Reverse((cost, link))) = queue.pop() {
+        if cost.flatness() > last_step {
+            break;
+        }
         let Some(fresh) = contraction.refresh(link) else {
             continue;
         };

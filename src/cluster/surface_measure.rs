@@ -66,6 +66,12 @@ pub(super) struct SurfaceMeasure {
 pub(super) struct Cost(u32);
 
 impl Cost {
+    /// The greatest step of flatness of unions whose normals keep within `half_angle` radians.
+    pub fn widest(half_angle: f64) -> u32 {
+        let chord = 2.0 * (0.5 * half_angle.clamp(0.0, std::f64::consts::PI)).sin();
+        1 + steps(chord / FLAT_SPREAD, 1)
+    }
+
     /// The step of flatness, 0 for coplanar.
     pub fn flatness(self) -> u32 {
         self.0 >> 24

@@ -154,6 +154,109 @@ fn scaling_by_a_power_of_two_gives_the_same_tree() {
     }
 }
 
+/// The facet sets that are nodes, each as a sorted list of polygons.
+fn node_sets(hierarchy: &Hierarchy) -> std::collections::BTreeSet<Vec<u32>> {
+    let set = |id| {
+        let facets = &hierarchy.facets[hierarchy.facet_range(id)];
+        let mut polygons: Vec<u32> = facets.iter().map(|f| f.polygon.0).collect();
+        polygons.sort_unstable();
+        polygons
+    };
+    nodes(hierarchy).map(set).collect()
+}
+
+#[test]
+fn rounding_hardly_changes_the_tree() {
+    let mut mesh = grid(Vec3::splat(-0.5), Vec3::X, Vec3::Y, 16, 16);
+    mesh.append(&sphere(Vec3::splat(0.1), 0.3, 32));
+    mesh.append(&cuboid(Vec3::splat(-0.4), Vec3::new(-0.1, -0.2, -0.3)));
+    let scene = mesh.scene();
+    let sets = node_sets(&build(&scene, &fronts(&scene)));
+    let tilt = Quat::from_euler(glam::EulerRot::XYZ, 0.3, 0.7, 1.1);
+    for moved in [
+        mesh.clone().map(|p| p * 3.0),
+        mesh.clone().map(|p| p * 0.1 + Vec3::new(0.3, -0.2, 0.1)),
+        mesh.clone().rotate(tilt),
+    ] {
+        let moved = moved.scene();
+        let again = node_sets(&build(&moved, &fronts(&moved)));
+        let kept = sets.intersection(&again).count() as f64 / sets.len() as f64;
+        assert!(kept >= 0.99, "only {kept} of the nodes are kept");
+    }
+}
+
+#[test]
+fn volumes_take_over_beyond_the_widest_cluster() {
+    let scene = cuboid(Vec3::splat(-0.4), Vec3::splat(0.4)).scene();
+    let config = ClusterConfig {
+        widest: 0.5,
+        ..ClusterConfig::default()
+    };
+    let hierarchy = build_hierarchy(&scene, &fronts(&scene), &config);
+    assert_eq!(hierarchy.validate(&scene), Ok(()));
+    let count = |kind| hierarchy.nodes.iter().filter(|n| n.kind == kind).count();
+    assert_eq!(count(NodeKind::FaceCluster), 6);
+    assert_eq!(count(NodeKind::Volume), 5);
+}
+
+/// A wall with a small raised square in its middle, joined to it all around by steep facets.
+#[test]
+fn a_bump_stays_out_of_its_wall() {
+    let cells = 40;
+    for rise in [0.01, 0.0005, 0.00005] {
+        let mut mesh = grid(Vec3::ZERO, Vec3::X, Vec3::Y, cells, cells);
+        let raised = |p: Vec3| {
+            let near = |x: f32| (0.49..0.56).contains(&x);
+            near(p.x) && near(p.y)
+        };
+        for position in &mut mesh.positions {
+            if raised(*position) {
+                position.z += rise;
+            }
+        }
+        let scene = mesh.scene();
+        let hierarchy = build(&scene, &fronts(&scene));
+        let flat: Vec<_> = (0..scene.polygons.len())
+            .filter(|&p| {
+                scene
+                    .corners(certilux::math::PolygonId::new(p))
+                    .iter()
+                    .all(|v| v.z == 0.0)
+            })
+            .collect();
+        let wall = nodes(&hierarchy)
+            .find(|&id| {
+                hierarchy.facet_range(id).len() == flat.len()
+                    && hierarchy.shape(id).deviation <= 1.0e-6
+            })
+            .unwrap_or_else(|| panic!("the wall around a rise of {rise} is no node"));
+        assert!(
+            hierarchy.facets[hierarchy.facet_range(wall)]
+                .iter()
+                .all(|f| flat.contains(&f.polygon.index()))
+        );
+    }
+}
+
+/// Slivers have normals of noise; they must not keep the wall that they belong to from being one.
+#[test]
+fn slivers_do_not_split_a_wall() {
+    let tilt = Quat::from_euler(glam::EulerRot::XYZ, 0.3, 0.7, 1.1);
+    for thickness in [1.0e-4, 1.0e-5, 1.0e-6] {
+        let mut mesh = grid(Vec3::ZERO, Vec3::X * 0.5, Vec3::Y, 8, 8);
+        mesh.append(&grid(Vec3::X * 0.5, Vec3::X * thickness, Vec3::Y, 1, 8));
+        let far = 0.5 + thickness;
+        mesh.append(&grid(Vec3::X * far, Vec3::X * (1.0 - far), Vec3::Y, 8, 8));
+        let count = mesh.triangles.len();
+        mesh.append(&grid(Vec3::ZERO, Vec3::Y, Vec3::Z, 8, 8));
+        let scene = mesh.rotate(tilt).map(|p| p * 0.5).scene();
+        let hierarchy = build(&scene, &fronts(&scene));
+        let wall = node_of(&hierarchy, 0..count)
+            .unwrap_or_else(|| panic!("slivers of {thickness} split the wall"));
+        assert!(hierarchy.shape(wall).deviation <= 1.0e-6);
+    }
+}
+
 #[test]
 fn one_facet_is_its_own_root() {
     let scene = Mesh {
