@@ -9,7 +9,8 @@
 use glam::DVec3;
 
 /// Spread of normals (chord between unit vectors, about the angle in radians) below which two
-/// pieces count as coplanar: a thousandth of what makes an occluder flat would already do.
+/// pieces count as coplanar: 1/175 of the degree that an occluder may bend, and above what is left
+/// of rounding once the tilt of narrow pieces is taken off.
 const FLAT_SPREAD: f64 = 1.0e-4;
 
 /// Rounding of a position over the diagonal of the scene. Half a unit in the last place of a
