@@ -9,6 +9,7 @@ use super::model::{Normalisation, Polygon, Scene, SceneWarning};
 use super::normalise::normalisation_of;
 use super::obj_parse::{RawMesh, parse_obj};
 use super::obj_scan::{ObjScan, scan_obj};
+use super::overlap::find_overlaps;
 use super::polygons::{Pieces, Tally, cut_faces};
 use super::surface::{Canvas, assign_surfaces};
 use glam::{DVec3, Vec3};
@@ -139,7 +140,7 @@ fn load(
             surface,
         })
         .collect();
-    Ok(Scene {
+    let mut scene = Scene {
         name: name.to_owned(),
         positions,
         polygons,
@@ -149,7 +150,35 @@ fn load(
         source_positions: mesh.positions,
         dropped_faces: pieces.dropped_faces,
         warnings,
-    })
+    };
+    warn_of_overlaps(&mut scene);
+    Ok(scene)
+}
+
+fn warn_of_overlaps(scene: &mut Scene) {
+    let overlaps = find_overlaps(scene);
+    let mut warn = |count: usize, what: String| {
+        if count > 0 {
+            let text = format!("{}: {count} polygons {what}", scene.name);
+            scene.warnings.push(SceneWarning(text));
+        }
+    };
+    warn(
+        overlaps.covered_fronts,
+        "lie wholly on others in one plane, facing the same way; they receive no light of their own"
+            .into(),
+    );
+    warn(
+        overlaps.partly_covered_fronts,
+        format!(
+            "lie partly on others in one plane, facing the same way; power will not add up on {:.2e} of the area",
+            overlaps.partly_covered_share
+        ),
+    );
+    warn(
+        overlaps.unchecked,
+        "lie in a crowd too dense to be searched for overlaps".into(),
+    );
 }
 
 fn refuse_if_any(defects: &mut Vec<Defect>) -> Result<(), LoadError> {

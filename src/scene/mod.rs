@@ -2,6 +2,7 @@
 
 mod assets;
 mod config;
+mod convex;
 mod degenerate;
 mod error;
 pub mod generate;
@@ -12,7 +13,11 @@ mod mtl_scan;
 mod normalise;
 mod obj_parse;
 mod obj_scan;
+mod overlap;
+mod polygon_tree;
 mod polygons;
+mod side_graph;
+mod sides;
 mod statement;
 mod surface;
 mod texture;
@@ -23,3 +28,5 @@ pub use config::{CLAMPED_REFLECTANCE, LoadConfig};
 pub use error::{Defect, LoadError, MAX_ELEMENTS, Reason};
 pub use load::{load_file, load_text};
 pub use model::{Facet, Normalisation, Polygon, Scene, SceneWarning, Side, Surface};
+pub use overlap::{Overlaps, find_overlaps};
+pub use sides::{SidesMode, resolve_sides};

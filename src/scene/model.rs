@@ -144,6 +144,17 @@ impl Scene {
         Aabb::from_points(self.positions.iter().copied())
     }
 
+    /// Depth below a surface within which nothing blocks and nothing is claimed: 1e-6 of the diagonal.
+    pub fn tau(&self) -> f32 {
+        1.0e-6 * self.bounds().diagonal()
+    }
+
+    /// Area of a polygon, normalised.
+    pub fn polygon_area(&self, id: PolygonId) -> f64 {
+        let [a, b, c] = self.corners(id).map(Vec3::as_dvec3);
+        0.5 * (b - a).cross(c - a).length()
+    }
+
     /// Number of channels that the scene needs: 1 where every reflectance and emission is grey, else 3.
     pub fn channels(&self) -> usize {
         let grey = |c: [f64; 3]| c[0] == c[1] && c[1] == c[2];

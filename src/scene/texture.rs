@@ -4,6 +4,7 @@
 //! are averaged. A footprint is integrated exactly, texel by texel, on the level of an image
 //! pyramid at which it is about [`FOOTPRINT_TEXELS`] wide.
 
+use super::convex::{area, clip};
 use glam::DVec2;
 use image::{ImageFormat, ImageReader};
 use std::io::Cursor;
@@ -122,9 +123,10 @@ impl Texture {
 
     fn integrate(&self, level: &Level, corners: [DVec2; 3], clamp: bool) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        let mut area = 0.0;
+        let mut whole = 0.0;
         let mut row = Vec::with_capacity(8);
         let mut cell = Vec::with_capacity(8);
+        let mut part = Vec::with_capacity(8);
         let range = |axis: usize| {
             let of = corners.map(|c| c[axis]);
             (of[0].min(of[1]).min(of[2]), of[0].max(of[1]).max(of[2]))
@@ -132,14 +134,11 @@ impl Texture {
         let columns = cells(range(0), self.width, level.width, level.step, clamp);
         let rows = cells(range(1), self.height, level.height, level.step, clamp);
         for (j, y0, y1) in rows {
-            row.clear();
-            row.extend_from_slice(&corners);
-            clip(&mut row, 1, y0, y1, &mut cell);
+            clip_range(&corners, DVec2::Y, y0, y1, &mut cell, &mut row);
             for &(i, x0, x1) in &columns {
-                let mut part = row.clone();
-                clip(&mut part, 0, x0, x1, &mut cell);
-                let covered = area_of(&part);
-                area += covered;
+                clip_range(&row, DVec2::X, x0, x1, &mut cell, &mut part);
+                let covered = area(&part);
+                whole += covered;
                 let texel = level.texels[j * level.width + i];
                 for (s, t) in sum.iter_mut().zip(texel) {
                     *s += covered * f64::from(t);
@@ -147,8 +146,8 @@ impl Texture {
             }
         }
         // A footprint squeezed to a line or a point has no area to weigh with.
-        if area > 0.0 && area.is_finite() {
-            sum.map(|s| s / area)
+        if whole > 0.0 && whole.is_finite() {
+            sum.map(|s| s / whole)
         } else {
             self.mean_of_points(corners, clamp)
         }
@@ -213,36 +212,17 @@ fn cells(
     cells
 }
 
-/// Clips a convex polygon to `low <= p[axis] <= high` (Sutherland and Hodgman 1974).
-fn clip(polygon: &mut Vec<DVec2>, axis: usize, low: f64, high: f64, scratch: &mut Vec<DVec2>) {
-    for (bound, sign) in [(low, 1.0), (high, -1.0)] {
-        if bound.is_infinite() {
-            continue;
-        }
-        scratch.clear();
-        for (k, &p) in polygon.iter().enumerate() {
-            let q = polygon[(k + 1) % polygon.len()];
-            let (dp, dq) = (sign * (p[axis] - bound), sign * (q[axis] - bound));
-            if dp >= 0.0 {
-                scratch.push(p);
-            }
-            if (dp < 0.0 && dq > 0.0) || (dp > 0.0 && dq < 0.0) {
-                scratch.push(p + (q - p) * (dp / (dp - dq)));
-            }
-        }
-        std::mem::swap(polygon, scratch);
-    }
-}
-
-fn area_of(polygon: &[DVec2]) -> f64 {
-    let Some(&origin) = polygon.first() else {
-        return 0.0;
-    };
-    let doubled: f64 = polygon
-        .windows(2)
-        .map(|e| (e[0] - origin).perp_dot(e[1] - origin))
-        .sum();
-    0.5 * doubled.abs()
+/// Puts into `out` the part of a convex polygon between two parallels, either of which may lie at infinity.
+fn clip_range(
+    polygon: &[DVec2],
+    axis: DVec2,
+    low: f64,
+    high: f64,
+    scratch: &mut Vec<DVec2>,
+    out: &mut Vec<DVec2>,
+) {
+    clip(polygon, axis, low, scratch);
+    clip(scratch, -axis, -high, out);
 }
 
 /// The next level: each texel the mean of up to four, weighted by the part of the image they cover.
