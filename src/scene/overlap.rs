@@ -115,6 +115,9 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
         let Some(lying) = own.coplanar(scene, other, tau) else {
             continue;
         };
+        if are_apart(&own.corners, &lying.corners, tau) {
+            continue;
+        }
         let first =
             |side, other_side| precedence(scene, other, other_side) < precedence(scene, id, side);
         if lying.same_way {
@@ -227,6 +230,19 @@ impl Flat {
             same_way,
         })
     }
+}
+
+/// Whether an edge of one of two triangles has all of the other beyond it, but for a strip of `tau`: so
+/// it is with the neighbours in a mesh, which need no clipping.
+fn are_apart(a: &[DVec2; 3], b: &[DVec2; 3], tau: f32) -> bool {
+    let parts = |a: &[DVec2; 3], b: &[DVec2; 3]| {
+        (0..3).any(|i| {
+            let (from, along) = (a[i], a[(i + 1) % 3] - a[i]);
+            let strip = f64::from(tau) * along.length();
+            b.iter().all(|&p| along.perp_dot(p - from) < strip)
+        })
+    };
+    parts(a, b) || parts(b, a)
 }
 
 /// What is left of a side after others have taken their parts.

@@ -262,6 +262,6 @@ fn fifty_thousand_polygons_are_quick() {
     let elapsed = start.elapsed();
     assert_eq!(facets.len(), scene.polygons.len());
     println!("{} polygons: {elapsed:?}", scene.polygons.len());
-    // Well under a second on an idle core; a loaded machine is given room.
-    assert!(elapsed.as_secs_f64() < 5.0, "{elapsed:?}");
+    // A third of a second on two idle cores; a loaded machine is given room.
+    assert!(elapsed.as_secs_f64() < 10.0, "{elapsed:?}");
 }

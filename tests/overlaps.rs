@@ -1,0 +1,229 @@
+//! Polygons that lie on each other: who owns the area, and what finding out costs.
+
+use certilux::math::PolygonId;
+use certilux::scene::{Facet, LoadConfig, Overlaps, Scene, Side, find_overlaps, load_text};
+use glam::{DQuat, DVec3};
+use proptest::prelude::*;
+use std::fmt::Write;
+
+const MATERIALS: &[u8] = b"newmtl wall\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n";
+
+/// Rectangles `[x0, y0, x1, y1]` at a height, front up (or down if `x1 < x0`), with their material.
+fn scene(rectangles: &[([f64; 4], f64, &str)], turn: DQuat) -> Scene {
+    // A lamp far below, and far enough aside to lie on nothing.
+    let mut obj =
+        String::from("mtllib m.mtl\nusemtl lamp\nv 0 0 -9\nv 1 0 -9\nv 0 1 -9\nf 1 2 3\n");
+    for (k, ([x0, y0, x1, y1], z, material)) in rectangles.iter().enumerate() {
+        for (x, y) in [(x0, y0), (x1, y0), (x1, y1), (x0, y1)] {
+            let p = turn * DVec3::new(*x, *y, *z);
+            writeln!(obj, "v {} {} {}", p.x, p.y, p.z).unwrap();
+        }
+        let first = 4 + 4 * k;
+        writeln!(
+            obj,
+            "usemtl {material}\nf {first} {} {} {}",
+            first + 1,
+            first + 2,
+            first + 3
+        )
+        .unwrap();
+    }
+    load_text(
+        "t.obj",
+        obj.as_bytes(),
+        &[("m.mtl", MATERIALS)],
+        &LoadConfig::default(),
+    )
+    .unwrap()
+}
+
+/// For each face after the lamp whether its front and its back are covered in all its polygons;
+/// panics if its polygons differ.
+fn covered(scene: &Scene, overlaps: &Overlaps) -> Vec<[bool; 2]> {
+    (1..scene.source_faces)
+        .map(|face| {
+            [Side::Front, Side::Back].map(|side| {
+                let mut of_polygons = (0..scene.polygons.len())
+                    .filter(|&i| scene.polygons[i].source_face == face)
+                    .map(|i| {
+                        overlaps.is_covered(Facet {
+                            polygon: PolygonId::new(i),
+                            side,
+                        })
+                    });
+                let first = of_polygons.next().unwrap();
+                assert!(of_polygons.all(|c| c == first));
+                first
+            })
+        })
+        .collect()
+}
+
+fn judge(rectangles: &[([f64; 4], f64, &str)]) -> Vec<[bool; 2]> {
+    let mut answer = None;
+    for turn in [
+        DQuat::IDENTITY,
+        DQuat::from_rotation_y(1.0),
+        DQuat::from_axis_angle(DVec3::new(0.6, 0.64, 0.48), 2.3),
+    ] {
+        let scene = scene(rectangles, turn);
+        let found = covered(&scene, &find_overlaps(&scene));
+        assert_eq!(
+            *answer.get_or_insert_with(|| found.clone()),
+            found,
+            "turned by {turn}"
+        );
+    }
+    answer.unwrap()
+}
+
+#[test]
+fn the_first_of_two_owns_what_the_second_covers() {
+    // Cut along the other diagonal's direction by offset corners, so that neither is a duplicate.
+    let whole = ([0., 0., 4., 4.], 0., "wall");
+    let part = ([1., 1., 2., 3.], 0., "wall");
+    assert_eq!(judge(&[whole, part]), [[false; 2], [true; 2]]);
+    // The large one comes second: it is covered in part only, and keeps its sides.
+    assert_eq!(judge(&[part, whole]), [[false; 2], [false; 2]]);
+    let scene = scene(&[part, whole], DQuat::IDENTITY);
+    let overlaps = find_overlaps(&scene);
+    // The diagonal of the large one passes through the small one, so both of its halves count.
+    assert_eq!(overlaps.partly_covered_fronts, 2);
+    assert!(
+        (overlaps.partly_covered_share - 2.0 / 18.5).abs() < 1e-6,
+        "{overlaps:?}"
+    );
+    assert!(
+        scene
+            .warnings
+            .iter()
+            .any(|w| w.0.contains("lie partly on others")),
+        "{:?}",
+        scene.warnings
+    );
+}
+
+#[test]
+fn several_together_cover_what_none_covers_alone() {
+    let tiles = [
+        ([0., 0., 2., 4.], 0., "wall"),
+        ([2., 0., 4., 2.], 0., "wall"),
+        ([2., 2., 4., 4.], 0., "wall"),
+        ([1., 1., 3.5, 3.], 0., "wall"),
+    ];
+    assert_eq!(judge(&tiles)[3], [true; 2]);
+    assert_eq!(judge(&tiles[1..])[2], [false; 2]);
+}
+
+#[test]
+fn a_front_covers_the_back_of_a_sheet_that_faces_the_other_way() {
+    let up = ([0., 0., 4., 4.], 0., "wall");
+    let down = ([4., 0., 0., 4.], 0., "wall");
+    assert_eq!(judge(&[up, down]), [[false, true], [false, true]]);
+}
+
+#[test]
+fn a_lamp_set_into_a_ceiling_shines() {
+    let ceiling = ([4., 0., 0., 4.], 0., "wall");
+    let lamp = ([2., 1., 1., 2.], 0., "lamp");
+    assert_eq!(judge(&[ceiling, lamp]), [[false, false], [false, true]]);
+}
+
+#[test]
+fn neighbours_and_layers_do_not_overlap() {
+    let apart = [
+        ([0., 0., 2., 2.], 0., "wall"),
+        ([2., 0., 4., 1.], 0., "wall"),
+        ([2., 1., 4., 2.], 0., "wall"),
+        // A millimetre above, in a scene of ten metres.
+        ([0., 0., 2., 2.], 1e-3, "wall"),
+    ];
+    assert_eq!(judge(&apart), [[false; 2]; 4]);
+    let scene = scene(&apart, DQuat::from_rotation_x(0.7));
+    let overlaps = find_overlaps(&scene);
+    assert_eq!(overlaps.partly_covered_fronts, 0);
+    assert_eq!(overlaps.unchecked, 0);
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// On a grid of integers the owned area can be counted cell by cell.
+    #[test]
+    fn covered_area_agrees_with_counting(
+        rectangles in prop::collection::vec((0..6u8, 0..6u8, 1..4u8, 1..4u8), 2..8),
+        angle in 0.0..6.0f64,
+    ) {
+        let bounds: Vec<[u8; 4]> = rectangles.iter().map(|&(x, y, w, h)| [x, y, x + w, y + h]).collect();
+        let mut distinct = bounds.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        // Exact copies are dropped at loading.
+        prop_assume!(distinct.len() == bounds.len());
+        let shapes: Vec<_> = bounds.iter().map(|b| (b.map(f64::from), 0.0, "wall")).collect();
+        let scene = scene(&shapes, DQuat::from_rotation_y(angle));
+        let overlaps = find_overlaps(&scene);
+        let inside = |b: &[u8; 4], x: u8, y: u8| (b[0]..b[2]).contains(&x) && (b[1]..b[3]).contains(&y);
+        let found = (1..scene.source_faces).map(|face| {
+            scene.polygons.iter().enumerate().filter(|(_, p)| p.source_face == face)
+                .all(|(i, _)| overlaps.is_covered(Facet { polygon: PolygonId::new(i), side: Side::Front }))
+        });
+        let mut double = 0;
+        for (k, (b, found)) in bounds.iter().zip(found).enumerate() {
+            let cells = || (b[0]..b[2]).flat_map(|x| (b[1]..b[3]).map(move |y| (x, y)));
+            let taken = cells().filter(|&(x, y)| bounds[..k].iter().any(|o| inside(o, x, y))).count();
+            let whole = taken == cells().count();
+            prop_assert_eq!(whole, found, "rectangle {}", k);
+            double += taken;
+        }
+        // Area of wholly covered polygons, of which some may belong to faces covered in part.
+        let area = |i: usize| scene.polygon_area(PolygonId::new(i));
+        let all: f64 = (0..scene.polygons.len()).map(area).sum();
+        let wholly: f64 = (0..scene.polygons.len())
+            .filter(|&i| overlaps.is_covered(Facet { polygon: PolygonId::new(i), side: Side::Front }))
+            .map(area)
+            .sum();
+        let units = scene.normalisation.scale.powi(2);
+        let got = (wholly + overlaps.partly_covered_share * all) / units;
+        prop_assert!((got - double as f64).abs() < 1e-3, "{} against {}", got, double);
+    }
+}
+
+#[test]
+fn a_large_plane_of_small_polygons_is_quick() {
+    let n = 300;
+    let mut obj = String::from("mtllib m.mtl\nusemtl lamp\n");
+    for j in 0..=n {
+        for i in 0..=n {
+            writeln!(obj, "v {i} {j} 0").unwrap();
+        }
+    }
+    for j in 0..n {
+        for i in 0..n {
+            let a = 1 + j * (n + 1) + i;
+            writeln!(obj, "f {a} {} {} {}", a + 1, a + n + 2, a + n + 1).unwrap();
+        }
+    }
+    let scene = load_text(
+        "t.obj",
+        obj.as_bytes(),
+        &[("m.mtl", MATERIALS)],
+        &LoadConfig::default(),
+    )
+    .unwrap();
+    let start = std::time::Instant::now();
+    let overlaps = find_overlaps(&scene);
+    let elapsed = start.elapsed();
+    println!("{} coplanar polygons: {elapsed:?}", scene.polygons.len());
+    assert_eq!(
+        (
+            overlaps.covered_fronts,
+            overlaps.partly_covered_fronts,
+            overlaps.unchecked
+        ),
+        (0, 0, 0)
+    );
+    // A quadratic search would take minutes.
+    assert!(elapsed.as_secs() < 20, "{elapsed:?}");
+}
