@@ -65,6 +65,28 @@ const fn family(
 
 static CATALOGUE: &[CatalogueEntry] = &[
     fixed(
+        "a",
+        "a guest house: rooms along a corridor, little exchange",
+        guest_house,
+    ),
+    fixed(
+        "b",
+        "a furniture house of 10 x 10 showrooms with wide openings",
+        showrooms,
+    ),
+    fixed(
+        "c",
+        "a warehouse: an open hall of racks, stacks and screens",
+        warehouse,
+    ),
+    fixed(
+        "d",
+        "a living room with few pieces, little occlusion",
+        living_room,
+    ),
+    fixed("e", "a flat of six rooms around a hall", flat),
+    fixed("f", "an exhibition hall of few large polygons", gallery),
+    fixed(
         "two-rooms",
         "two furnished rooms joined by a door, a lamp in one (the demo)",
         two_rooms,

@@ -6,16 +6,12 @@ mod border;
 mod catalogue;
 mod cell_grid;
 mod dice;
-#[allow(dead_code, unused_imports)]
 mod furniture;
-#[allow(dead_code)]
 mod lathe;
 mod material;
 mod mesh;
 mod obj_text;
-#[allow(dead_code)]
 mod palette;
-#[allow(dead_code)]
 mod placement;
 mod places;
 mod plate;

@@ -54,26 +54,35 @@ impl Room {
         );
     }
 
-    /// Where a piece of `depth` stands with its back to `wall`; `along` is the distance of its
-    /// middle from the wall's western or southern end.
-    pub fn against(&self, wall: Wall, along: f64, depth: f64) -> Placement {
-        let off = CLEARANCE + depth / 2.0;
-        match wall {
-            Wall::North => Placement::on_floor(self.west + along, self.north - off, 0.0),
-            Wall::West => Placement::on_floor(self.west + off, self.south + along, 90.0),
-            Wall::South => Placement::on_floor(self.west + along, self.south + off, 180.0),
-            Wall::East => Placement::on_floor(self.east - off, self.south + along, 270.0),
+    /// The room as seen from its wall `front`.
+    pub fn seen_from(&self, front: Wall) -> Frame {
+        let (width, depth) = (self.width(), self.depth());
+        let (x, y, degrees, width, depth) = match front {
+            Wall::South => (self.west, self.south, 0.0, width, depth),
+            Wall::East => (self.east, self.south, 90.0, depth, width),
+            Wall::North => (self.east, self.north, 180.0, width, depth),
+            Wall::West => (self.west, self.north, 270.0, depth, width),
+        };
+        Frame {
+            corner: Placement::on_floor(x, y, degrees),
+            width,
+            depth,
         }
     }
 
-    /// Where a piece stands at `(x, y)` from the south-western corner, turned by `degrees`.
-    pub fn inside(&self, x: f64, y: f64, degrees: f64) -> Placement {
-        Placement::on_floor(self.west + x, self.south + y, degrees)
+    /// [`Frame::against`] in the room as seen from the south.
+    pub fn against(&self, wall: Wall, along: f64, depth: f64) -> Placement {
+        self.seen_from(Wall::South).against(wall, along, depth)
     }
 
-    /// Where a piece hangs with its base at height `z`, at `(x, y)` from the south-western corner.
+    /// [`Frame::inside`] in the room as seen from the south.
+    pub fn inside(&self, x: f64, y: f64, degrees: f64) -> Placement {
+        self.seen_from(Wall::South).inside(x, y, degrees)
+    }
+
+    /// [`Frame::hung`] in the room as seen from the south.
     pub fn hung(&self, x: f64, y: f64, z: f64) -> Placement {
-        Placement::new(self.west + x, self.south + y, z, 0.0)
+        self.seen_from(Wall::South).hung(x, y, z)
     }
 
     /// Extent along x in metres.
@@ -84,6 +93,40 @@ impl Room {
     /// Extent along y in metres.
     pub fn depth(&self) -> f64 {
         self.north - self.south
+    }
+}
+
+/// A room seen from one of its walls: that wall is the frame's south, x runs to the right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    corner: Placement,
+    /// Extent along the front wall in metres.
+    pub width: f64,
+    /// Extent away from the front wall in metres.
+    pub depth: f64,
+}
+
+impl Frame {
+    /// Where a piece of `depth` stands with its back to `wall`; `along` is the distance of its
+    /// middle from the wall's western or southern end.
+    pub fn against(&self, wall: Wall, along: f64, depth: f64) -> Placement {
+        let off = CLEARANCE + depth / 2.0;
+        match wall {
+            Wall::North => self.inside(along, self.depth - off, 0.0),
+            Wall::West => self.inside(off, along, 90.0),
+            Wall::South => self.inside(along, off, 180.0),
+            Wall::East => self.inside(self.width - off, along, 270.0),
+        }
+    }
+
+    /// Where a piece stands at `(x, y)` from the frame's corner, turned by `degrees`.
+    pub fn inside(&self, x: f64, y: f64, degrees: f64) -> Placement {
+        self.corner.then(Placement::on_floor(x, y, degrees))
+    }
+
+    /// Where a piece stands or hangs with its base at height `z`, at `(x, y)` from the corner.
+    pub fn hung(&self, x: f64, y: f64, z: f64) -> Placement {
+        self.corner.then(Placement::new(x, y, z, 0.0))
     }
 }
 
@@ -107,6 +150,33 @@ impl Paint {
             self.ceiling
         } else {
             self.walls
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dvec3;
+
+    #[test]
+    fn furniture_stands_inside_the_room_with_its_back_to_the_wall_from_every_side() {
+        let room = Room::at(3.0, -2.0, 4.0, 6.0);
+        for front in [Wall::South, Wall::East, Wall::North, Wall::West] {
+            let frame = room.seen_from(front);
+            for wall in [Wall::South, Wall::East, Wall::North, Wall::West] {
+                let placed = frame.against(wall, 1.0, 0.6);
+                let middle = placed.apply(dvec3(0.0, 0.0, 0.0));
+                let back = placed.apply(dvec3(0.0, 0.3, 0.0));
+                let gap = |p: glam::DVec3| {
+                    (p.x - room.west)
+                        .min(room.east - p.x)
+                        .min(p.y - room.south)
+                        .min(room.north - p.y)
+                };
+                assert!((gap(back) - CLEARANCE).abs() < 1e-12);
+                assert!((gap(middle) - CLEARANCE - 0.3).abs() < 1e-12);
+            }
         }
     }
 }
