@@ -15,6 +15,11 @@ pub struct OccluderConfig {
     /// not a sliver. It parts sheets from thin solids, whose two sides would otherwise be one
     /// "flat" cluster; the flatness bounds everything finer.
     pub cone_degrees: f64,
+    /// Lets a rectangle stick out over the border of its surface by up to 0.67 w, as far as no claim
+    /// becomes false: a segment there grazes the surface within w. Without it, nothing that reaches
+    /// down to the floor on both sides of a wall could be proved occluded by the wall, which ends at
+    /// the floor. Off, every rectangle lies inside the footprint (cracks apart).
+    pub flush: bool,
 }
 
 impl Default for OccluderConfig {
@@ -27,6 +32,7 @@ impl Default for OccluderConfig {
             flatness_degrees: 1.0,
             // The riser of a step is perpendicular; bevels and panels of doors are not.
             cone_degrees: 45.0,
+            flush: true,
         }
     }
 }

@@ -94,7 +94,16 @@ fn extract_cluster(
             found.rejected += 1;
             continue;
         }
-        if let Some(occluder) = thicken(&sheet, &footprint, &frame, rectangle, scale.weld, node) {
+        let slab = thicken(
+            &sheet,
+            &footprint,
+            &frame,
+            rectangle,
+            scale.weld,
+            config.flush,
+            node,
+        );
+        if let Some(occluder) = slab {
             kept.push(rectangle);
             found.occluders.push(occluder);
         }

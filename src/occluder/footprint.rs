@@ -41,13 +41,17 @@ pub(super) struct Footprint {
     pub edges: Vec<[DVec2; 2]>,
     /// True where heights do not matter and the union alone decides.
     pub planar: bool,
+    /// How far the covered part may stray from the polygons where cracks were closed.
+    pub strip_reach: f64,
 }
 
 impl Footprint {
     /// The footprint of `sheet` in the coordinates of its frame; `weld` is w.
     pub fn new(sheet: &Sheet, weld: f64) -> Self {
         let planar = sheet.deviation <= PLANAR_SHARE * weld;
-        let edges: Vec<[DVec2; 2]> = close_cracks(&sheet.positions, &sheet.boundary, weld)
+        let welded = close_cracks(&sheet.positions, &sheet.boundary, weld);
+        let edges: Vec<[DVec2; 2]> = welded
+            .boundary
             .iter()
             .map(|edge| edge.map(|v| sheet.positions[v as usize].truncate()))
             .collect();
@@ -59,7 +63,11 @@ impl Footprint {
         } else {
             edges
         };
-        Self { edges, planar }
+        Self {
+            edges,
+            planar,
+            strip_reach: welded.reach,
+        }
     }
 
     /// This footprint in axes turned so that `axis` (unit) becomes the first.
@@ -67,7 +75,7 @@ impl Footprint {
         let turn = |p: DVec2| DVec2::new(axis.dot(p), axis.perp_dot(p));
         Self {
             edges: self.edges.iter().map(|edge| edge.map(turn)).collect(),
-            planar: self.planar,
+            ..*self
         }
     }
 

@@ -1,5 +1,6 @@
 //! The occluders of a scene as later stages see them.
 
+use super::config::OccluderConfig;
 use super::slab::SlabRectangle;
 use crate::math::NodeId;
 
@@ -9,8 +10,9 @@ use crate::math::NodeId;
 ///
 /// Let F+ and F- be the convex hulls of [`SlabRectangle::face_corners`] of `slab`. Every segment
 /// that meets both comes, between them, within w (the weld distance, 1e-6 of the scene's diagonal)
-/// of some polygon of the scene: it is never *surely clear*. Over the whole rectangle the surface
-/// lies strictly between F+ and F-, so an end of the segment beyond a face is beyond the surface.
+/// of some polygon of `node`: it is never *surely clear*. The surface under the rectangle lies
+/// strictly between F+ and F-, so an end of the segment beyond a face is beyond the surface. The
+/// rectangle may stick out over the surface's border by less than w ([`OccluderConfig::flush`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occluder {
     /// The rectangle and its thickness.

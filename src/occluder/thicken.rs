@@ -6,18 +6,31 @@ use super::rectangle::Rectangle;
 use super::set::Occluder;
 use super::sheet::Sheet;
 use super::slab::SlabRectangle;
-use super::weld::STRIP_REACH;
 use crate::math::NodeId;
 use glam::{DVec2, DVec3};
 
 /// First distance, in normalised units, kept for rounding to f32. The coordinates of the centre and
-/// the halves round by at most 2^-26, the two sums of a corner by 2^-26 each, the thickness by less:
-/// under 2^-23 in all, and as much again for a caller that takes the plane from one corner. The
-/// result is checked, and the distance doubled if it fails.
-const FIRST_MARGIN: f64 = 1.0 / (1u64 << 22) as f64;
+/// the halves round by at most 2^-26, the two sums of a corner by as much each, and mostly by less.
+/// The result is checked, and the distance doubled if it fails.
+const FIRST_MARGIN: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// Attempts before giving up; margins beyond 2^-18 would mean a broken invariant.
-const ATTEMPTS: usize = 4;
+/// Attempts before giving up; a margin beyond 2^-19 would mean a broken invariant.
+const ATTEMPTS: usize = 6;
+
+/// How far from the polygons, in w, a segment through the faces may stay sideways. A planar sheet adds
+/// at most w/4 in height: sqrt(0.95^2 + 0.25^2) < 0.983, and the contours' error is far below the rest.
+const SIDEWAYS: f64 = 0.95;
+
+/// How far the faces may stick out over the border of `footprint` on each side.
+///
+/// Take a segment through both faces of the larger slab and shrink the plane, heights kept, about
+/// the rectangle's centre until the larger rectangle becomes the smaller one. The image of the
+/// segment is a segment through both faces of the smaller slab; it meets the surface, or a strip
+/// within `strip_reach` of it. Shrinking moves no point by more than a corner's sqrt(2) overhangs, so the
+/// segment itself passes within sqrt(2) overhang + strip_reach of the polygons.
+fn overhang(footprint: &Footprint, weld: f64) -> f64 {
+    ((SIDEWAYS * weld - footprint.strip_reach) / std::f64::consts::SQRT_2).max(0.0)
+}
 
 /// The occluder of `rectangle`, which lies in the plane of `frame` (the sheet's, turned) and is
 /// covered by `footprint`; `None` where rounding leaves nothing of it.
@@ -27,10 +40,17 @@ pub(super) fn thicken(
     frame: &PlaneFrame,
     rectangle: Rectangle,
     weld: f64,
+    flush: bool,
     node: NodeId,
 ) -> Option<Occluder> {
-    let [bottom, top] = heights(sheet, footprint, frame, rectangle, weld);
-    let safe = rectangle.inset(DVec2::splat(CONTOUR_ERROR));
+    let [bottom, top] = heights(sheet, footprint, frame, rectangle);
+    let outwards = if flush {
+        overhang(footprint, weld)
+    } else {
+        // Welding may have moved the border outwards by as much.
+        -footprint.strip_reach
+    };
+    let safe = rectangle.inset(DVec2::splat(CONTOUR_ERROR - outwards));
     let mut margin = FIRST_MARGIN;
     for _ in 0..ATTEMPTS {
         let occluder = round(
@@ -55,7 +75,6 @@ fn heights(
     footprint: &Footprint,
     frame: &PlaneFrame,
     rectangle: Rectangle,
-    weld: f64,
 ) -> [f64; 2] {
     if footprint.planar {
         return [-sheet.deviation, sheet.deviation];
@@ -64,7 +83,7 @@ fn heights(
     let turn = |p: DVec3| DVec2::new(axis.dot(p.truncate()), axis.perp_dot(p.truncate()));
     let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
     // Strips of welded cracks may reach over the rectangle from triangles this far outside.
-    let reach = STRIP_REACH * weld;
+    let reach = footprint.strip_reach;
     let wide = rectangle.inset(DVec2::splat(-reach));
     for triangle in &sheet.triangles {
         let corners = triangle.map(|v| sheet.positions[v as usize]);

@@ -22,13 +22,18 @@ const EDGE_SHARE: f64 = 0.45;
 /// deviates at most w/4, still leaves sqrt(0.95^2 + 0.25^2) < 0.983 (see [`super::footprint`]).
 pub(super) const STRIP_REACH: f64 = VERTEX_SHARE + EDGE_SHARE;
 
-/// The part of `boundary` that is not closed by an opposite edge within the weld distance. The
-/// edges returned run between the same `positions`; `weld` is w in their unit.
-pub(super) fn close_cracks(
-    positions: &[DVec3],
-    boundary: &[DirectedEdge],
-    weld: f64,
-) -> Vec<DirectedEdge> {
+/// What is left of a boundary once cracks are closed.
+pub(super) struct Welded {
+    /// Edges between the same positions as before.
+    pub boundary: Vec<DirectedEdge>,
+    /// How far strips really stray from the polygons: 0 where all matched exactly, at most
+    /// [`STRIP_REACH`] w.
+    pub reach: f64,
+}
+
+/// The part of `boundary` that is not closed by an opposite edge within the weld distance; `weld` is
+/// w in the unit of `positions`.
+pub(super) fn close_cracks(positions: &[DVec3], boundary: &[DirectedEdge], weld: f64) -> Welded {
     let touched = vertices(boundary);
     let flat: Vec<DVec2> = touched
         .iter()
@@ -41,6 +46,7 @@ pub(super) fn close_cracks(
     // that stands for itself attracts others.
     let mut stands_for: Vec<u32> = (0..touched.len() as u32).collect();
     let reach = VERTEX_SHARE * weld;
+    let (mut moved, mut bent) = (0.0f64, 0.0f64);
     for i in 0..touched.len() as u32 {
         let mut first = i;
         grid.near_segment(flat[i as usize], flat[i as usize], reach, |j| {
@@ -48,6 +54,7 @@ pub(super) fn close_cracks(
                 first = j;
             }
         });
+        moved = moved.max(place(i).distance(place(first)));
         stands_for[i as usize] = first;
     }
     let compact = |v: u32| touched.partition_point(|&t| t < v) as u32;
@@ -69,7 +76,9 @@ pub(super) fn close_cracks(
                 return;
             }
             let t = (place(v) - start).dot(along) / along.length_squared();
-            if t > 0.0 && t < 1.0 && (start + along * t).distance(place(v)) <= reach {
+            let beside = (start + along * t).distance(place(v));
+            if t > 0.0 && t < 1.0 && beside <= reach {
+                bent = bent.max(beside);
                 between.push((t, v));
             }
         });
@@ -81,8 +90,11 @@ pub(super) fn close_cracks(
         }
         split.push([from, b]);
     }
-    cancel(split)
-        .into_iter()
-        .map(|edge| edge.map(|i| touched[i as usize]))
-        .collect()
+    Welded {
+        boundary: cancel(split)
+            .into_iter()
+            .map(|edge| edge.map(|i| touched[i as usize]))
+            .collect(),
+        reach: moved + bent,
+    }
 }
