@@ -19,6 +19,10 @@ use rayon::prelude::*;
 /// count as closed, and no claim is made about segments within w of a polygon.
 const WELD: f64 = 1.0e-6;
 
+/// What a rectangle may lose at a side, in w, to edges out of line by f32 rounding, which is up to
+/// 0.06 w.
+const SLACK_SHARE: f64 = 0.1;
+
 /// Any direction unlikely to lie half-way between the axes of a wall: rectangles are named "along"
 /// and "across" by it, the same way however the wall is meshed.
 const LONGWAYS: DVec3 = DVec3::new(0.935, 0.298, 0.192);
@@ -80,7 +84,7 @@ fn extract_cluster(
         bounds,
         config.per_cluster,
         scale.min_area,
-        scale.weld,
+        SLACK_SHARE * scale.weld,
     );
     grown.sort_by(|a, b| b.area().total_cmp(&a.area()));
 

@@ -62,7 +62,8 @@ fn grow(footprint: &Footprint, bounds: Rectangle, seed: Rectangle, slack: f64) -
             let give = DVec2::AXES[along] * share;
             rectangle = expand(footprint, bounds, rectangle.inset(give), 1 - along);
         }
-        rectangle
+        // Edges exactly in line cost nothing.
+        expand(footprint, bounds, rectangle, 1 - axis)
     });
     larger(first, second)
 }

@@ -1,6 +1,5 @@
 //! The occluders of a scene as later stages see them.
 
-use super::config::OccluderConfig;
 use super::slab::SlabRectangle;
 use crate::math::NodeId;
 
@@ -12,7 +11,7 @@ use crate::math::NodeId;
 /// that meets both comes, between them, within w (the weld distance, 1e-6 of the scene's diagonal)
 /// of some polygon of `node`: it is never *surely clear*. The surface under the rectangle lies
 /// strictly between F+ and F-, so an end of the segment beyond a face is beyond the surface. The
-/// rectangle may stick out over the surface's border by less than w ([`OccluderConfig::flush`]).
+/// rectangle may stick out over the surface's border by less than w ([`super::OccluderConfig::flush`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occluder {
     /// The rectangle and its thickness.

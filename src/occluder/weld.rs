@@ -4,7 +4,9 @@
 //! [`super::sheet`]): a vertex moved by at most [`VERTEX_SHARE`] w carries its edges along in strips
 //! that stay within that distance of the edges; an edge bent through a vertex at most
 //! [`EDGE_SHARE`] w beside it adds a triangle within that distance of the (moved) edge. Every point
-//! of every strip is then within (VERTEX_SHARE + EDGE_SHARE) w = [`STRIP_REACH`] w of the polygons.
+//! of every strip is then within (VERTEX_SHARE + EDGE_SHARE) w of the polygons: below w by enough
+//! that a planar sheet, which deviates at most w/4, still leaves sqrt(0.95^2 + 0.25^2) < 0.983 (see
+//! [`super::footprint`]).
 
 use super::boundary::{DirectedEdge, cancel, vertices};
 use super::point_grid::PointGrid;
@@ -15,19 +17,14 @@ use glam::{DVec2, DVec3};
 const VERTEX_SHARE: f64 = 0.5;
 
 /// A vertex nearer than this fraction of w to an edge splits it: a T-junction. So cracks up to this
-/// wide close for certain, and none wider than [`STRIP_REACH`].
+/// wide close for certain, and none wider than both shares together.
 const EDGE_SHARE: f64 = 0.45;
-
-/// How far, in w, a strip may stray from the polygons. Below 1 by enough that a planar sheet, which
-/// deviates at most w/4, still leaves sqrt(0.95^2 + 0.25^2) < 0.983 (see [`super::footprint`]).
-pub(super) const STRIP_REACH: f64 = VERTEX_SHARE + EDGE_SHARE;
 
 /// What is left of a boundary once cracks are closed.
 pub(super) struct Welded {
     /// Edges between the same positions as before.
     pub boundary: Vec<DirectedEdge>,
-    /// How far strips really stray from the polygons: 0 where all matched exactly, at most
-    /// [`STRIP_REACH`] w.
+    /// How far strips really stray from the polygons: 0 where all matched exactly, at most 0.95 w.
     pub reach: f64,
 }
 

@@ -48,6 +48,21 @@ fn sheets_that_abut_at_one_height_are_one() {
 }
 
 #[test]
+fn a_flush_rectangle_grazes_the_border_and_no_more() {
+    let mesh = two_sheets(0.0, 0.0);
+    let (scene, set) = extract(&mesh);
+    let over = f64::from(widest(&set)) - 0.4;
+    assert!(over > 2.0 * 0.5 * WELD && over < 2.0 * 0.7 * WELD, "{over}");
+    attack(&scene, &set, 20_000, &mut Random::new(14));
+    let inside = OccluderConfig {
+        flush: false,
+        ..OccluderConfig::default()
+    };
+    let (_, set) = extract_with(&mesh, &inside);
+    assert!(f64::from(widest(&set)) < 0.4);
+}
+
+#[test]
 fn sheets_that_abut_at_different_heights_are_two() {
     for step in [5.0 * WELD, 1.0e-4, 2.0e-3] {
         let (scene, set) = extract(&two_sheets(0.0, step));
