@@ -23,6 +23,10 @@ const WELD: f64 = 1.0e-6;
 /// 0.06 w.
 const SLACK_SHARE: f64 = 0.1;
 
+/// A rectangle with more than this share of its area inside a larger one proves nothing that the
+/// larger does not; slanted walls would give several such.
+const SAME: f64 = 0.99;
+
 /// Any direction unlikely to lie half-way between the axes of a wall: rectangles are named "along"
 /// and "across" by it, the same way however the wall is meshed.
 const LONGWAYS: DVec3 = DVec3::new(0.935, 0.298, 0.192);
@@ -96,6 +100,12 @@ fn extract_cluster(
     for rectangle in grown {
         if !footprint.covers_rectangle(&rectangle) {
             found.rejected += 1;
+            continue;
+        }
+        if kept
+            .iter()
+            .any(|k| k.overlap(&rectangle) > SAME * rectangle.area())
+        {
             continue;
         }
         let slab = thicken(

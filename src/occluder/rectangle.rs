@@ -30,6 +30,15 @@ impl Rectangle {
         self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
     }
 
+    /// Area common to both.
+    pub fn overlap(&self, other: &Self) -> f64 {
+        let common = Self {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+        };
+        common.area()
+    }
+
     /// This rectangle with every side moved inwards; perhaps turned inside out.
     #[must_use]
     pub fn inset(&self, by: DVec2) -> Self {
