@@ -15,7 +15,7 @@ use super::survivors::{SurvivorEntry, SurvivorList, SurvivorOctet};
 use super::verdict::Verdict;
 use super::wide_tree::{BoxOctet, ChildRef};
 use crate::math::PolygonId;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// When a walk gives up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,39 +113,31 @@ impl<'a> VisibilityQuery<'a> {
         limits: WalkLimits,
         scratch: &mut VisibilityScratch,
     ) -> VisibilityAnswer {
-        self.arch.dispatch(
-            #[inline(always)]
-            || {
-                let mut walk = Walk {
-                    query: self,
-                    a,
-                    b,
-                    shaft: shaft_between(a, b, &self.scene.tolerance),
-                    incoming,
-                    outgoing,
-                    limits,
-                    stack: &mut scratch.stack,
-                    blocking_leaves: 0,
-                    answer: VisibilityAnswer {
-                        verdict: Verdict::Unknown,
-                        obstacle: None,
-                        complete: false,
-                        nodes: 0,
-                        polygons: 0,
-                    },
-                };
-                walk.run();
-                walk.answer
+        self.arch.dispatch(Walk {
+            query: self,
+            a,
+            b,
+            incoming,
+            outgoing,
+            limits,
+            stack: &mut scratch.stack,
+            blocking_leaves: 0,
+            answer: VisibilityAnswer {
+                verdict: Verdict::Unknown,
+                obstacle: None,
+                complete: false,
+                nodes: 0,
+                polygons: 0,
             },
-        )
+        })
     }
 }
 
+/// One query in progress.
 struct Walk<'a> {
     query: &'a VisibilityQuery<'a>,
     a: &'a ElementBounds,
     b: &'a ElementBounds,
-    shaft: Shaft,
     incoming: &'a SurvivorList,
     outgoing: &'a mut SurvivorList,
     limits: WalkLimits,
@@ -154,16 +146,29 @@ struct Walk<'a> {
     answer: VisibilityAnswer,
 }
 
+/// A type, not a closure: the call of a closure is not inlined into the function that has the
+/// instruction set.
+impl WithSimd for Walk<'_> {
+    type Output = VisibilityAnswer;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) -> VisibilityAnswer {
+        let shaft = shaft_between(self.a, self.b, &self.query.scene.tolerance);
+        self.run(&shaft);
+        self.answer
+    }
+}
+
 impl Walk<'_> {
     #[inline(always)]
-    fn run(&mut self) {
+    fn run(&mut self, shaft: &Shaft) {
         self.outgoing.clear();
         self.stack.clear();
         let incoming = self.incoming;
         for (index, octet) in incoming.octets.iter().enumerate() {
-            let met = self.open_octet(index as u32, octet);
-            if !met || !self.drain() {
-                self.hand_down(index + 1);
+            let met = self.open_octet(shaft, index as u32, octet);
+            if !met || !self.drain(shaft) {
+                self.hand_down(shaft, index + 1);
                 return;
             }
         }
@@ -175,10 +180,10 @@ impl Walk<'_> {
 
     /// Stacks the entries of an octet that meet the shaft; false if the walk is over.
     #[inline(always)]
-    fn open_octet(&mut self, index: u32, octet: &SurvivorOctet) -> bool {
-        let met = self.shaft.meets_boxes(&octet.boxes);
+    fn open_octet(&mut self, shaft: &Shaft, index: u32, octet: &SurvivorOctet) -> bool {
+        let met = shaft.meets_boxes(&octet.boxes);
         let home = BoxHome::Incoming(index);
-        self.stack_children(met, &octet.boxes, home, |lane| octet.entries[lane])
+        self.stack_children(shaft, met, &octet.boxes, home, |lane| octet.entries[lane])
     }
 
     /// Stacks children so that the lowest lane is opened first; false if one lies wholly inside
@@ -186,6 +191,7 @@ impl Walk<'_> {
     #[inline(always)]
     fn stack_children(
         &mut self,
+        shaft: &Shaft,
         met: u32,
         boxes: &BoxOctet,
         home: BoxHome,
@@ -195,7 +201,7 @@ impl Walk<'_> {
         if met == 0 {
             return true;
         }
-        let inside = self.shaft.contains_boxes(boxes, met);
+        let inside = shaft.contains_boxes(boxes, met);
         let mut rest = met;
         while rest != 0 {
             let lane = 31 - rest.leading_zeros();
@@ -218,7 +224,7 @@ impl Walk<'_> {
 
     /// Opens everything on the stack; false if the walk is over.
     #[inline(always)]
-    fn drain(&mut self) -> bool {
+    fn drain(&mut self, shaft: &Shaft) -> bool {
         let scene = self.query.scene;
         while let Some(pending) = self.stack.pop() {
             if self.answer.nodes >= self.limits.nodes {
@@ -227,15 +233,15 @@ impl Walk<'_> {
             }
             let reference = pending.entry.reference();
             if reference.is_leaf() {
-                if !self.open_leaf(reference, pending.entry.lanes) {
+                if !self.open_leaf(shaft, reference, pending.entry.lanes) {
                     return false;
                 }
                 continue;
             }
             let node = &scene.tree.nodes[reference.index()];
-            let met = self.shaft.meets_boxes(&node.boxes);
+            let met = shaft.meets_boxes(&node.boxes);
             let home = BoxHome::Node(reference.index() as u32);
-            let go_on = self.stack_children(met, &node.boxes, home, |lane| {
+            let go_on = self.stack_children(shaft, met, &node.boxes, home, |lane| {
                 let child = node.children[lane];
                 let lanes = if child.is_leaf() {
                     scene.used_lanes(child.index())
@@ -254,10 +260,10 @@ impl Walk<'_> {
     /// Tests the polygons of a leaf; false if the walk is over. What may block, and what was not
     /// looked at any more, goes down.
     #[inline(always)]
-    fn open_leaf(&mut self, leaf: ChildRef, lanes: u32) -> bool {
+    fn open_leaf(&mut self, shaft: &Shaft, leaf: ChildRef, lanes: u32) -> bool {
         let scene = self.query.scene;
         self.answer.nodes += 1;
-        let (met, deep) = self.shaft.meets_triangles(&scene.octets[leaf.index()]);
+        let (met, deep) = shaft.meets_triangles(&scene.octets[leaf.index()]);
         let mut candidates = met & lanes;
         let mut blocking = 0;
         let collect = self.limits.blocking_leaves > 1;
@@ -302,7 +308,7 @@ impl Walk<'_> {
 
     /// After an early stop: everything not looked at goes down, or the list would not be complete.
     #[inline(always)]
-    fn hand_down(&mut self, next_octet: usize) {
+    fn hand_down(&mut self, shaft: &Shaft, next_octet: usize) {
         if self.query.faults.cuts_survivors() {
             return;
         }
@@ -315,7 +321,7 @@ impl Walk<'_> {
                 .push(boxes.get(pending.lane as usize), pending.entry);
         }
         for octet in &self.incoming.octets[next_octet..] {
-            let mut met = self.shaft.meets_boxes(&octet.boxes);
+            let mut met = shaft.meets_boxes(&octet.boxes);
             while met != 0 {
                 let lane = met.trailing_zeros() as usize;
                 met &= met - 1;

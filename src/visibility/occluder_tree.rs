@@ -12,7 +12,7 @@ use super::wide_tree::{ChildRef, WideLeaf, WideNode, WideTree};
 use crate::math::Aabb;
 use crate::occluder::SlabRectangle;
 use glam::Vec3;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// The occluders of a scene, ready to be queried.
 #[derive(Clone, Debug)]
@@ -116,19 +116,24 @@ impl OccluderTree {
         if self.faces.is_empty() {
             return OcclusionAnswer::default();
         }
-        self.arch.dispatch(
-            #[inline(always)]
-            || self.query_kernel(a, b, last, scratch),
-        )
+        self.arch.dispatch(QueryKernel {
+            tree: self,
+            a,
+            b,
+            last,
+            scratch,
+        })
     }
 
     /// Tries one occluder only: nearly free where the caller has a likely one.
     pub fn occluded_by(&self, occluder: u32, a: &ElementBounds, b: &ElementBounds) -> bool {
         self.faces.get(occluder as usize).is_some_and(|faces| {
-            self.arch.dispatch(
-                #[inline(always)]
-                || faces.occludes_with(a, b, &self.tolerance, self.faults),
-            )
+            self.arch.dispatch(SingleKernel {
+                tree: self,
+                faces,
+                a,
+                b,
+            })
         })
     }
 
@@ -190,6 +195,44 @@ impl OccluderTree {
             }
         }
         answer
+    }
+}
+
+/// [`OccluderTree::query`] for one instruction set. A type, not a closure: the call of a closure is
+/// not inlined into the function that has the instruction set, and would stay without it.
+struct QueryKernel<'a> {
+    tree: &'a OccluderTree,
+    a: &'a ElementBounds,
+    b: &'a ElementBounds,
+    last: &'a mut Option<u32>,
+    scratch: &'a mut OcclusionScratch,
+}
+
+impl WithSimd for QueryKernel<'_> {
+    type Output = OcclusionAnswer;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> OcclusionAnswer {
+        self.tree
+            .query_kernel(self.a, self.b, self.last, self.scratch)
+    }
+}
+
+/// [`OccluderTree::occluded_by`] for one instruction set.
+struct SingleKernel<'a> {
+    tree: &'a OccluderTree,
+    faces: &'a OccluderFaces,
+    a: &'a ElementBounds,
+    b: &'a ElementBounds,
+}
+
+impl WithSimd for SingleKernel<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        self.faces
+            .occludes_with(self.a, self.b, &self.tree.tolerance, self.tree.faults)
     }
 }
 
