@@ -143,7 +143,7 @@ pub(super) fn may_block(
 /// The unit normal, unless the triangle is so thin that its plane is noise. Such a triangle has no
 /// interior that could surely block, but a wall may be made of many: there is no claim past it.
 #[inline(always)]
-fn known_normal(v: [DVec3; 3], tolerance: &Tolerance) -> Option<DVec3> {
+pub(super) fn known_normal(v: [DVec3; 3], tolerance: &Tolerance) -> Option<DVec3> {
     let normal = (v[1] - v[0]).cross(v[2] - v[0]);
     let length = normal.length();
     let perimeter = (v[1] - v[0]).length() + (v[2] - v[1]).length() + (v[0] - v[2]).length();

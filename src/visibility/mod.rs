@@ -1,5 +1,6 @@
 //! Guaranteed occluded, guaranteed visible, or unknown (paper, section 5).
 
+mod blockers;
 mod bounds;
 mod crossing;
 pub mod exact;
@@ -16,6 +17,7 @@ mod verdict;
 mod wide_tree;
 mod wide_tree_builder;
 
+pub use blockers::{BlockerList, SegmentOctet};
 pub use bounds::{BoundsShape, ElementBounds};
 pub use faults::Faults;
 pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};

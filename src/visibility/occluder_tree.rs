@@ -154,7 +154,13 @@ impl OccluderTree {
                 return answer;
             }
         }
-        let segment = CentreSegment::new(a.centre(), b.centre());
+        let segment = ProbeSegment::new(a.centre(), b.centre());
+        // Two more segments that an occluder has to cross: most candidates fail one.
+        let (first, second) = (a.corner_count() - 1, b.corner_count() - 1);
+        let probes = [
+            ProbeSegment::new(a.corner(0), b.corner(second)),
+            ProbeSegment::new(a.corner(first), b.corner(0)),
+        ];
         scratch.stack.clear();
         scratch.stack.push(0);
         while let Some(index) = scratch.stack.pop() {
@@ -174,14 +180,17 @@ impl OccluderTree {
                 }
                 answer.nodes += 1;
                 let octet = &self.leaves[child.index()];
-                let mut candidates = segment.crosses_rectangles(octet);
+                let crossed = segment.crosses_rectangles(octet);
+                if crossed == 0 {
+                    continue;
+                }
+                answer.centre_blocked = true;
+                let mut candidates = crossed
+                    & probes[0].crosses_rectangles(octet)
+                    & probes[1].crosses_rectangles(octet);
                 while candidates != 0 {
                     let id = octet.ids[candidates.trailing_zeros() as usize];
                     candidates &= candidates - 1;
-                    if id == WideLeaf::NONE {
-                        continue;
-                    }
-                    answer.centre_blocked = true;
                     if *last == Some(id) {
                         continue;
                     }
@@ -276,14 +285,14 @@ impl RectangleOctet {
     }
 }
 
-/// The segment between the centres of a pair.
-struct CentreSegment {
+/// A segment between two points of a pair.
+struct ProbeSegment {
     origin: Vec3,
     along: Vec3,
     inverse: Vec3,
 }
 
-impl CentreSegment {
+impl ProbeSegment {
     #[inline(always)]
     fn new(from: Vec3, to: Vec3) -> Self {
         let along = to - from;
@@ -320,18 +329,18 @@ impl CentreSegment {
                 leave[l] = if t1 < leave[l] { t1 } else { leave[l] };
             }
         }
-        let mut mask = 0;
+        let mut bits = [0_u32; 8];
         for l in 0..8 {
-            mask |= u32::from(enter[l] <= leave[l]) << l;
+            bits[l] = if enter[l] <= leave[l] { 1 << l } else { 0 };
         }
-        mask
+        bits.iter().fold(0, |mask, bit| mask | bit)
     }
 
     /// Bit per lane: the segment crosses the rectangle.
     #[inline(always)]
     fn crosses_rectangles(&self, octet: &RectangleOctet) -> u32 {
         let (o, d) = (self.origin, self.along);
-        let mut mask = 0;
+        let mut bits = [0_u32; 8];
         for l in 0..8 {
             let from_centre = [
                 o.x - octet.centre[0][l],
@@ -345,8 +354,8 @@ impl CentreSegment {
             let u = dot(&octet.u, from_centre) + t * dot(&octet.u, along);
             let v = dot(&octet.v, from_centre) + t * dot(&octet.v, along);
             let inside = (t > 0.0) & (t < 1.0) & (u.abs() <= 1.0) & (v.abs() <= 1.0);
-            mask |= u32::from(inside) << l;
+            bits[l] = if inside { 1 << l } else { 0 };
         }
-        mask
+        bits.iter().fold(0, |mask, bit| mask | bit)
     }
 }

@@ -100,11 +100,17 @@ impl OccluderFaces {
         };
         let (a, b, sign) = if swap { (b, a, -sign) } else { (a, b, sign) };
         let frame = PairFrame::new(self, a, b, tolerance);
-        self.edges.iter().all(|edge| {
+        // A loop, not `all`: its closure would not be compiled for the wide instruction set.
+        for edge in &self.edges {
             let threshold = frame.threshold(edge);
-            passes_inside(edge, sign, a, b, threshold)
-                || (faults.beside_counts_as_inside() && passes_inside(edge, -sign, a, b, threshold))
-        })
+            let inside = passes_inside(edge, sign, a, b, threshold)
+                || (faults.beside_counts_as_inside()
+                    && passes_inside(edge, -sign, a, b, threshold));
+            if !inside {
+                return false;
+            }
+        }
+        true
     }
 
     /// 1 if `b` lies beyond the slab on the normal's side and `a` on the other, -1 if the other way
@@ -181,6 +187,7 @@ impl PairFrame {
     ///   of that and the growth by `m` of both ends cost `H length_l1 (16 u (ma + mb) + 2 m)`.
     /// * Underflow: every product that underflows loses at most 2^-150 times a factor below 4;
     ///   the constant 1e-36 is millions of times their sum.
+    #[inline(always)]
     fn new(
         slab: &OccluderFaces,
         a: &ElementBounds,

@@ -229,9 +229,9 @@ fn all_set(lanes: &[u32; 8]) -> bool {
 /// Bit per lane that is zero.
 #[inline(always)]
 fn clear_lanes(lanes: &[u32; 8]) -> u32 {
-    let mut mask = 0;
-    for (l, &lane) in lanes.iter().enumerate() {
-        mask |= u32::from(lane == 0) << l;
+    let mut bits = [0_u32; 8];
+    for l in 0..8 {
+        bits[l] = if lanes[l] == 0 { 1 << l } else { 0 };
     }
-    mask
+    bits.iter().fold(0, |mask, bit| mask | bit)
 }

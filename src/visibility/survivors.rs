@@ -95,16 +95,15 @@ impl SurvivorList {
         self.len += 1;
     }
 
+    pub(super) fn entries(&self) -> impl Iterator<Item = SurvivorEntry> + '_ {
+        self.octets.iter().flat_map(|o| o.entries).take(self.len)
+    }
+
     /// Every polygon in the list, nodes opened, in no particular order.
     pub fn polygons(&self, scene: &SceneTree) -> Vec<PolygonId> {
         let mut found = Vec::new();
-        let mut pending: Vec<(ChildRef, u32)> = self
-            .octets
-            .iter()
-            .flat_map(|o| o.entries)
-            .take(self.len)
-            .map(|e| (e.reference(), e.lanes))
-            .collect();
+        let mut pending: Vec<(ChildRef, u32)> =
+            self.entries().map(|e| (e.reference(), e.lanes)).collect();
         while let Some((reference, lanes)) = pending.pop() {
             if reference.is_leaf() {
                 let first = 8 * reference.index();
