@@ -79,8 +79,6 @@ fn run(isa: &str, config: &DeviceConfig) {
             rooms.triangles.len(),
             start.elapsed().as_secs_f64()
         );
-        let c =
-            CBaseline::build(config, &rooms.positions, &rooms.triangles).expect("the scene builds");
         for kind in Kind::ALL {
             let rays = exchanges(&rooms, kind, EXCHANGES);
             let label = format!(
@@ -88,18 +86,16 @@ fn run(isa: &str, config: &DeviceConfig) {
                 rooms.triangles.len(),
                 kind.name()
             );
-            measure(&label, &scene, &c, &rays);
+            measure(&label, &scene, &rays);
         }
     }
 }
 
-fn measure(label: &str, scene: &CommittedScene, c: &CBaseline, rays: &[Ray]) {
+fn measure(label: &str, scene: &CommittedScene, rays: &[Ray]) {
     let by_8: Vec<RayPacket8> = rays.chunks(8).map(fill8).collect();
     let by_16: Vec<RayPacket16> = rays.chunks(16).map(fill16).collect();
-    let by_1: Vec<SingleRay> = by_8
-        .iter()
-        .flat_map(|packet| (0..8).map(|lane| SingleRay::from_lane(packet, lane)))
-        .collect();
+    let by_1: Vec<SingleRay> = rays.iter().map(|&ray| ray.into()).collect();
+    let c = CBaseline(scene);
     let variants: Vec<Variant> = vec![
         ("rust-1-single", Box::new(|| singles(scene, rays))),
         ("rust-8-single", Box::new(|| single8(scene, rays))),

@@ -21,7 +21,7 @@ pub struct DeviceConfig {
 
 impl DeviceConfig {
     /// In the form that `rtcNewDevice` reads.
-    pub(super) fn to_embree(self) -> Result<String, EmbreeError> {
+    fn to_embree(self) -> Result<String, EmbreeError> {
         let mut text = format!("threads={}", self.threads.unwrap_or(1).max(1));
         if let Some(isa) = self.isa {
             if !INSTRUCTION_SETS.contains(&isa) {

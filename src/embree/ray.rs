@@ -45,3 +45,23 @@ impl Ray {
         self.origin + self.direction * t
     }
 }
+
+impl From<Ray> for embree4_sys::RTCRay {
+    #[inline]
+    fn from(ray: Ray) -> Self {
+        Self {
+            org_x: ray.origin.x,
+            org_y: ray.origin.y,
+            org_z: ray.origin.z,
+            tnear: ray.tnear,
+            dir_x: ray.direction.x,
+            dir_y: ray.direction.y,
+            dir_z: ray.direction.z,
+            time: 0.0,
+            tfar: ray.tfar,
+            mask: u32::MAX,
+            id: 0,
+            flags: 0,
+        }
+    }
+}

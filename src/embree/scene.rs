@@ -129,20 +129,7 @@ impl CommittedScene {
     /// True when something blocks the ray.
     #[inline]
     pub fn occluded1(&self, ray: &Ray) -> bool {
-        let mut query = sys::RTCRay {
-            org_x: ray.origin.x,
-            org_y: ray.origin.y,
-            org_z: ray.origin.z,
-            tnear: ray.tnear,
-            dir_x: ray.direction.x,
-            dir_y: ray.direction.y,
-            dir_z: ray.direction.z,
-            time: 0.0,
-            tfar: ray.tfar,
-            mask: u32::MAX,
-            id: 0,
-            flags: 0,
-        };
+        let mut query = sys::RTCRay::from(*ray);
         // SAFETY: the scene is committed, RTCRay's layout is asserted in `shim`, null arguments are
         // the defaults.
         unsafe { sys::rtcOccluded1(self.handle, &mut query, ptr::null_mut()) };
