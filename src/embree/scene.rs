@@ -112,17 +112,18 @@ impl CommittedScene {
     /// `tfar` of those lanes. Not faster than two packets of 8 (`bench/runs/`).
     #[inline]
     pub fn occluded16(&self, rays: &mut RayPacket16, active: u16) -> u16 {
-        let valid = RayPacket16::valid(active);
         let mut arguments = arguments(sys::RTCRayQueryFlags::COHERENT);
-        // SAFETY: as in `occluded8_with`, with RTCRay16 and 16 entries.
-        unsafe {
-            sys::rtcOccluded16(
-                valid.0.as_ptr(),
-                self.handle,
-                ptr::from_mut(rays).cast(),
-                &mut arguments,
-            );
-        }
+        RayPacket16::with_valid(active, |valid| {
+            // SAFETY: as in `occluded8_with`, with RTCRay16 and 16 entries.
+            unsafe {
+                sys::rtcOccluded16(
+                    valid.0.as_ptr(),
+                    self.handle,
+                    ptr::from_mut(rays).cast(),
+                    &mut arguments,
+                );
+            }
+        });
         rays.blocked() & active
     }
 
