@@ -6,7 +6,7 @@
 //! [`super::Tolerance`]: a surely blocked segment is blocked, a surely clear one is not, and nothing
 //! is excluded by identity.
 
-use super::crossing::known_normal;
+use super::crossing::{KnownPlane, known_plane};
 use super::scene_tree::SceneTree;
 use super::survivors::SurvivorList;
 use super::wide_tree::ChildRef;
@@ -57,7 +57,8 @@ impl BlockerList {
     }
 
     /// Replaces the content by the polygons of `survivors`, nodes opened. False if there are more
-    /// than `most`, or one so thin that its plane is noise: then ask Embree.
+    /// than `most`, or one so thin that its plane is noise: then ask Embree. Hairlines are left out:
+    /// they surely block nothing.
     pub fn fill(&mut self, scene: &SceneTree, survivors: &SurvivorList, most: usize) -> bool {
         self.blockers.clear();
         self.pending.clear();
@@ -93,8 +94,10 @@ impl BlockerList {
 
     fn push(&mut self, corners: [Vec3; 3], scene: &SceneTree) -> bool {
         let v = corners.map(Vec3::as_dvec3);
-        let Some(normal) = known_normal(v, &scene.tolerance) else {
-            return false;
+        let normal = match known_plane(v, &scene.tolerance) {
+            KnownPlane::Normal(normal) => normal,
+            KnownPlane::Noise => return false,
+            KnownPlane::Hairline => return true,
         };
         self.blockers.push(Blocker {
             normal,

@@ -115,8 +115,10 @@ pub(super) fn may_block(
     tolerance: &Tolerance,
 ) -> bool {
     let v @ [v0, ..] = triangle.map(Vec3::as_dvec3);
-    let Some(normal) = known_normal(v, tolerance) else {
-        return true;
+    let normal = match known_plane(v, tolerance) {
+        KnownPlane::Normal(normal) => normal,
+        KnownPlane::Noise => return true,
+        KnownPlane::Hairline => return false,
     };
     if crosses_centre_segment(v, normal, a, b, tolerance) {
         return true;
@@ -140,14 +142,32 @@ pub(super) fn may_block(
     })
 }
 
-/// The unit normal, unless the triangle is so thin that its plane is noise. Such a triangle has no
-/// interior that could surely block, but a wall may be made of many: there is no claim past it.
+/// What a polygon's thickness says about its plane.
+pub(super) enum KnownPlane {
+    /// Its unit normal.
+    Normal(DVec3),
+    /// So thin that the plane is noise. It has no interior that could surely block, but a wall may
+    /// be made of many such: there is no claim past it.
+    Noise,
+    /// Thinner than a thirty-second of the weld distance, as the poles of spheres leave them: eight
+    /// million side by side would not wall off the scene, and one surely blocks nothing.
+    Hairline,
+}
+
+/// The plane of a triangle, judged by its inscribed circle.
 #[inline(always)]
-pub(super) fn known_normal(v: [DVec3; 3], tolerance: &Tolerance) -> Option<DVec3> {
+pub(super) fn known_plane(v: [DVec3; 3], tolerance: &Tolerance) -> KnownPlane {
     let normal = (v[1] - v[0]).cross(v[2] - v[0]);
     let length = normal.length();
     let perimeter = (v[1] - v[0]).length() + (v[2] - v[1]).length() + (v[0] - v[2]).length();
-    (length > 0.5 * f64::from(tolerance.weld) * perimeter).then(|| normal / length)
+    let weld = f64::from(tolerance.weld);
+    if length > 0.5 * weld * perimeter {
+        KnownPlane::Normal(normal / length)
+    } else if length < weld / 32.0 * perimeter {
+        KnownPlane::Hairline
+    } else {
+        KnownPlane::Noise
+    }
 }
 
 /// Depth up to which a point of the bounds stands for points that are not deeper than `tau`.
@@ -165,8 +185,10 @@ pub(super) fn has_depth_on_both_sides(
     tolerance: &Tolerance,
 ) -> bool {
     let v = triangle.map(Vec3::as_dvec3);
-    let Some(normal) = known_normal(v, tolerance) else {
-        return true;
+    let normal = match known_plane(v, tolerance) {
+        KnownPlane::Normal(normal) => normal,
+        KnownPlane::Noise => return true,
+        KnownPlane::Hairline => return false,
     };
     let depth = harmless_depth(tolerance);
     let range = |bounds: &ElementBounds| {
