@@ -209,12 +209,23 @@ impl fmt::Display for LoadError {
 /// Where defects of one file are gathered.
 pub(super) struct DefectLog<'a> {
     file: &'a str,
+    /// Where this file's defects begin.
+    start: usize,
     defects: &'a mut Vec<Defect>,
 }
 
 impl<'a> DefectLog<'a> {
     pub(super) fn new(file: &'a str, defects: &'a mut Vec<Defect>) -> Self {
-        Self { file, defects }
+        Self {
+            file,
+            start: defects.len(),
+            defects,
+        }
+    }
+
+    /// Orders the defects by line, those of the whole file last.
+    pub(super) fn sort_by_line(&mut self) {
+        self.defects[self.start..].sort_by_key(|d| d.line.unwrap_or(usize::MAX));
     }
 
     pub(super) fn add(&mut self, line: Option<usize>, reason: Reason) {

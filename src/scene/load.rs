@@ -6,6 +6,7 @@ use super::config::LoadConfig;
 use super::error::{Defect, DefectLog, LoadError, MAX_ELEMENTS, Reason};
 use super::material::{Materials, check_materials, describe, resolve_materials};
 use super::model::{Normalisation, Polygon, Scene, SceneWarning};
+use super::mtl_scan::RawMaterial;
 use super::normalise::normalisation_of;
 use super::obj_parse::{RawMesh, parse_obj};
 use super::obj_scan::{ObjScan, scan_obj};
@@ -64,7 +65,7 @@ fn load(
     warn_of_ignored(&scan, name, &mut warnings);
     let materials = resolve_materials(&scan, name, assets, &mut defects, &mut warnings);
     let used = used_materials(&scan);
-    check_materials(&materials.list, &used, &mut defects, &mut warnings);
+    check_materials(&materials.list, &used, config, &mut defects, &mut warnings);
     if !scan.face_lines.is_empty() {
         check_emitter(&materials, &used, name, &mut defects);
     }
@@ -216,13 +217,15 @@ fn used_materials(scan: &ObjScan) -> Vec<bool> {
     used
 }
 
-fn emits(material: &super::mtl_scan::RawMaterial) -> bool {
+fn emits(material: &RawMaterial) -> bool {
     material.map_ke.is_some() || material.ke.is_some_and(|ke| ke.iter().any(|&c| c > 0.0))
 }
 
 fn check_emitter(materials: &Materials, used: &[bool], name: &str, defects: &mut Vec<Defect>) {
     let mut in_use = materials.list.iter().zip(used).filter(|(_, used)| **used);
-    if !in_use.any(|(material, _)| emits(material)) {
+    // Where a `Ke` was refused, its own defect says what is wrong.
+    let refused = |m: &RawMaterial| m.ke.is_none() && m.ke_line != m.line;
+    if !in_use.any(|(material, _)| emits(material) || refused(material)) {
         let missing_libraries = materials.missing_libraries.clone();
         DefectLog::new(name, defects).add(None, Reason::NoEmitter { missing_libraries });
     }

@@ -1,6 +1,7 @@
 //! Materials as the faces use them: names resolved against the libraries, ranges checked.
 
 use super::assets::Assets;
+use super::config::LoadConfig;
 use super::error::{Defect, DefectLog, Reason};
 use super::model::SceneWarning;
 use super::mtl_scan::{Ignored, RawMaterial, scan_mtl};
@@ -140,6 +141,7 @@ fn default_material(name: &str, file: &str, line: usize) -> RawMaterial {
 pub(super) fn check_materials(
     materials: &[RawMaterial],
     used: &[bool],
+    config: &LoadConfig,
     defects: &mut Vec<Defect>,
     warnings: &mut Vec<SceneWarning>,
 ) {
@@ -157,6 +159,18 @@ pub(super) fn check_materials(
                 };
                 DefectLog::new(&material.file, defects).add(Some(line), reason);
             }
+        }
+        // With a texture the colour is known only once the image is.
+        if material.map_kd.is_none()
+            && !config.clamp_reflectance
+            && let Some(value) = material.kd.filter(|kd| kd.iter().any(|&c| c >= 1.0))
+        {
+            let reason = Reason::ReflectanceTooHigh {
+                material: material.name.clone(),
+                value,
+                texture: None,
+            };
+            DefectLog::new(&material.file, defects).add(Some(material.kd_line), reason);
         }
         if material.kd.is_none() && material.map_kd.is_none() {
             warnings.push(SceneWarning(format!(

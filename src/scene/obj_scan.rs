@@ -252,23 +252,16 @@ impl Scanner {
         line: usize,
         defects: &mut DefectLog,
     ) -> Option<(i64, Option<i64>)> {
+        let Some(written) = corner_parts(word) else {
+            defects.add(Some(line), Reason::BadCorner(decode(word)));
+            return None;
+        };
         let mut absolute = [None; 3];
         let mut sound = true;
-        for (list, part) in word.split(|&b| b == b'/').enumerate() {
-            let written = std::str::from_utf8(part)
-                .ok()
-                .and_then(|t| t.parse::<i64>().ok());
-            match written {
-                // `v//vn` and `v/` leave a part out, but a vertex there must be.
-                None if part.is_empty() && (1..3).contains(&list) => {}
-                Some(index) if list < 3 => {
-                    absolute[list] = self.resolve(list, index, line, defects);
-                    sound &= absolute[list].is_some();
-                }
-                _ => {
-                    defects.add(Some(line), Reason::BadCorner(decode(word)));
-                    return None;
-                }
+        for (list, index) in written.into_iter().enumerate() {
+            if let Some(index) = index {
+                absolute[list] = self.resolve(list, index, line, defects);
+                sound &= absolute[list].is_some();
             }
         }
         let vertex = absolute[0]?;
@@ -348,8 +341,22 @@ impl Scanner {
                 defects.add(None, Reason::TooMany { kind, count });
             }
         }
+        defects.sort_by_line();
         self.scan
     }
+}
+
+/// The indices of `v`, `v/vt`, `v//vn` or `v/vt/vn` as written; a part other than the first may be
+/// left out.
+fn corner_parts(word: &[u8]) -> Option<[Option<i64>; 3]> {
+    let mut written = [None; 3];
+    for (list, part) in word.split(|&b| b == b'/').enumerate() {
+        let slot = written.get_mut(list)?;
+        if !part.is_empty() {
+            *slot = Some(std::str::from_utf8(part).ok()?.parse().ok()?);
+        }
+    }
+    written[0].map(|_| written)
 }
 
 fn out_of_range(list: usize, index: i64, count: usize) -> Reason {

@@ -207,14 +207,20 @@ impl Flat {
     fn coplanar(&self, scene: &Scene, other: PolygonId, tau: f32) -> Option<Lying> {
         let tau = f64::from(tau);
         let corners = scene.corners(other).map(Vec3::as_dvec3);
-        let within = corners.iter().all(|&p| self.height(p) <= tau) || {
-            let its = Self::new(scene, other)?;
-            its.normal.dot(self.normal).abs() > 0.999
-                && self
-                    .corners
-                    .iter()
-                    .all(|p| its.height(self.origin + self.u * p.x + self.v * p.y) <= tau)
-        };
+        let [a, b, c] = corners;
+        let larger = (b - a).cross(c - a).length_squared()
+            > (self.corners[1] - self.corners[0])
+                .perp_dot(self.corners[2] - self.corners[0])
+                .powi(2);
+        let within = corners.iter().all(|&p| self.height(p) <= tau)
+            || larger && {
+                let its = Self::new(scene, other)?;
+                its.normal.dot(self.normal).abs() > 0.999
+                    && self
+                        .corners
+                        .iter()
+                        .all(|p| its.height(self.origin + self.u * p.x + self.v * p.y) <= tau)
+            };
         if !within {
             return None;
         }

@@ -21,6 +21,8 @@ struct Node {
 pub(super) struct PolygonTree {
     nodes: Vec<Node>,
     order: Vec<u32>,
+    /// Boxes of polygons, in the order of `order`.
+    boxes: Vec<Aabb>,
 }
 
 impl PolygonTree {
@@ -34,6 +36,7 @@ impl PolygonTree {
         let mut tree = Self {
             nodes: Vec::with_capacity(boxes.len()),
             order: Vec::new(),
+            boxes: order.iter().map(|&i| boxes[i as usize]).collect(),
         };
         if !boxes.is_empty() {
             tree.add(&boxes, &order, 0);
@@ -67,8 +70,8 @@ impl PolygonTree {
         bounds
     }
 
-    /// Calls `each` with the polygons whose leaf comes within `margin` of `bounds` and of the
-    /// plane through `point` with unit `normal`. Gives up, and returns false, after `most` nodes.
+    /// Calls `each` with the polygons whose box comes within `margin` of `bounds`, in leaves that
+    /// come as near the plane through `point` with unit `normal`. Gives up, and returns false, after `most` nodes.
     pub fn near(
         &self,
         bounds: Aabb,
@@ -81,6 +84,7 @@ impl PolygonTree {
             min: bounds.min - margin,
             max: bounds.max + margin,
         };
+        let steepness = normal.abs();
         let mut index = 0;
         let mut visits = 0;
         while let Some(node) = self.nodes.get(index) {
@@ -88,16 +92,21 @@ impl PolygonTree {
             if visits > most {
                 return false;
             }
-            let half = node.bounds.half_extent();
-            let reach = normal.abs().dot(half) + margin;
-            let height = normal.dot(node.bounds.centre() - point).abs();
-            if grown.distance(node.bounds) > 0.0 || height > reach {
+            // The margin is far above the rounding of these sums.
+            let Aabb { min, max } = node.bounds;
+            let misses_box = !(min.cmple(grown.max) & max.cmpge(grown.min)).all();
+            if misses_box
+                || normal.dot((min + max) * 0.5 - point).abs()
+                    > steepness.dot((max - min) * 0.5) + margin
+            {
                 index = node.skip as usize;
                 continue;
             }
             let range = node.first as usize..(node.first + node.count) as usize;
-            for &polygon in &self.order[range] {
-                each(PolygonId(polygon));
+            for (&polygon, bounds) in self.order[range.clone()].iter().zip(&self.boxes[range]) {
+                if (bounds.min.cmple(grown.max) & bounds.max.cmpge(grown.min)).all() {
+                    each(PolygonId(polygon));
+                }
             }
             index += 1;
         }
