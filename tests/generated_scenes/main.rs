@@ -5,6 +5,7 @@ mod neighbours;
 mod reader;
 
 use certilux::scene::generate::{catalogue, generate};
+use certilux::scene::{LoadConfig, load_text};
 use glam::DVec3;
 use reader::{ReadScene, ReadTriangle, read};
 use std::collections::{BTreeMap, BTreeSet};
@@ -59,6 +60,20 @@ fn every_scene_is_well_formed_text() {
         assert_eq!(used, defined, "{name}: materials");
         let lit = |t: &ReadTriangle| scene.materials[&t.material].ke != [0.0; 3];
         assert!(scene.triangles.iter().any(lit), "{name} has no emitter");
+    }
+}
+
+#[test]
+fn every_scene_loads_without_a_warning_and_whole() {
+    for name in names() {
+        let text = generate(name).unwrap();
+        let library = format!("{name}.mtl");
+        let files = [(library.as_str(), text.mtl.as_bytes())];
+        let scene = load_text(name, text.obj.as_bytes(), &files, &LoadConfig::default());
+        let scene = scene.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(scene.warnings, [], "{name}");
+        assert_eq!(scene.dropped_faces, [0_u32; 0], "{name}");
+        assert_eq!(scene.polygons.len(), read(name).triangles.len());
     }
 }
 
