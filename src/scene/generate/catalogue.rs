@@ -84,7 +84,11 @@ static CATALOGUE: &[CatalogueEntry] = &[
         "a living room with few pieces, little occlusion",
         living_room,
     ),
-    fixed("e", "a flat of six rooms around a hall", flat),
+    fixed(
+        "e",
+        "a flat of eight rooms along a hall, lit by two windows",
+        flat,
+    ),
     fixed("f", "an exhibition hall of few large polygons", gallery),
     fixed(
         "two-rooms",

@@ -62,7 +62,7 @@ pub fn sealed_slab() -> Mesh {
         if i < 5 { LIT_FLOOR } else { SEALED_FLOOR }
     });
     mesh.object("floor", &floor);
-    // Cells 4..6 by 1 of the ceiling's lit part hold the lamp.
+    // The lamp takes two by two cells in the middle of the ceiling's lit part.
     let ceiling = plate_cut_at(dz, dy, dx, [&even(4), &cuts(6, 4)], |j, i| match (i, j) {
         (2..=3, 1..=2) => LIT_LAMP,
         (0..=5, _) => LIT_CEILING,

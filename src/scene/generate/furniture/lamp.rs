@@ -1,4 +1,4 @@
-//! Lamps: panels under the ceiling, floor lamps, table lamps.
+//! Lamps: panels under the ceiling, lanterns, floor lamps, table lamps.
 
 use super::super::blocks::Blocks;
 use super::super::lathe::{Turn, lathe, outline};
@@ -11,6 +11,20 @@ pub fn lamp_panel(width: f64, depth: f64, cell: f64, frame: Material, glow: Mate
     let mut blocks = Blocks::empty().with_cell_size(cell);
     blocks.add([-x, -y, 0.0], [x, y, 0.04], 0);
     blocks.mesh(|face| if face.faces_down() { glow } else { frame })
+}
+
+/// A hanging lantern of `width` by `width` by `height` whose sides glow; its base is at z = 0.
+pub fn lantern(width: f64, height: f64, cell: f64, frame: Material, glow: Material) -> Mesh {
+    let x = width / 2.0;
+    let mut blocks = Blocks::empty().with_cell_size(cell);
+    blocks.add([-x, -x, 0.0], [x, x, height], 0);
+    blocks.mesh(|face| {
+        if face.faces_up() || face.faces_down() {
+            frame
+        } else {
+            glow
+        }
+    })
 }
 
 /// A floor lamp 1.6 m high: foot, pole and a drum shade.

@@ -20,7 +20,7 @@ pub use chair::{chair, panel_chair, stool};
 pub use crates::{BAY, RackSize, crate_stack, rack};
 pub use cupboard::{bath, counter, cupboard};
 pub use desk::desk;
-pub use lamp::{floor_lamp, lamp_panel, table_lamp};
+pub use lamp::{floor_lamp, lamp_panel, lantern, table_lamp};
 pub use plant::{plant, vase};
 pub use screen::{bench, block, screen};
 pub use shelf::{ShelfSize, shelf};

@@ -56,7 +56,7 @@ pub fn corridor() -> Mesh {
     mesh
 }
 
-/// Benches, cupboards and plants along the walls, a column base in each corner room.
+/// A bench, lockers, a plant and a box along the walls of every leg.
 fn furnish(mesh: &mut Mesh) {
     let half = WIDTH / 2.0;
     for (index, pair) in CORNERS.windows(2).enumerate() {

@@ -1,7 +1,7 @@
-//! Scene E: a flat of six rooms around a hall.
+//! Scene E: a flat of eight rooms along a hall, lit from two windows at its western end.
 
 use super::super::blocks::Blocks;
-use super::super::furniture::{bench, lamp_panel};
+use super::super::furniture::{bench, lantern};
 use super::super::material::Material;
 use super::super::mesh::Mesh;
 use super::super::palette::*;
@@ -14,8 +14,10 @@ const HEIGHT: f64 = 2.6;
 /// Depth of the rooms and width of the hall in metres.
 const ROOM_DEPTH: f64 = 4.4;
 const HALL_WIDTH: f64 = 2.0;
-/// Inner widths of the three southern and the three northern rooms, from the west, in metres.
-const WIDTHS: [[f64; 3]; 2] = [[4.2, 3.6, 5.0], [4.0, 4.6, 4.2]];
+/// Inner widths of the four southern and the four northern rooms, from the west, in metres.
+const WIDTHS: [[f64; 4]; 2] = [[4.0, 3.6, 4.4, 3.8], [3.6, 4.2, 4.0, 4.0]];
+/// Rooms in a row.
+const A_ROW: usize = WIDTHS[0].len();
 /// A door's middle from the end of the front wall, its width and height, in metres.
 const DOOR_FROM_END: f64 = 0.8;
 const DOOR_WIDTH: f64 = 0.9;
@@ -23,31 +25,43 @@ const DOOR_HEIGHT: f64 = 2.1;
 /// The arch between kitchen and living room: its ends' distances from the front walls, height.
 const ARCH: [f64; 2] = [1.7, 3.3];
 const ARCH_HEIGHT: f64 = 2.2;
+/// The windows in the western walls: their ends' distances from the rooms' southern walls, sill and
+/// head, how deep they are set, in metres, and their light.
+const WINDOW: [f64; 2] = [1.3, 3.1];
+const SILL: [f64; 2] = [0.95, 2.25];
+const WINDOW_DEPTH: f64 = 0.15;
+const DAYLIGHT: Material = Material::lamp("daylight", [16.0, 18.0, 22.0]);
 /// Largest side of a mesh cell of the shell in metres.
-const SHELL_CELL: f64 = 0.48;
+const SHELL_CELL: f64 = 0.69;
 const DETAIL: Detail = Detail {
-    cell: 0.44,
+    cell: 0.62,
     segments: 8,
-    books: 4,
+    books: 3,
 };
 /// Which lamps are on, southern rooms first.
-const LIT: [bool; 6] = [true, false, true, false, true, false];
-/// The lamp panels' sides and largest cell in metres, and their light.
-const LAMP: [f64; 2] = [0.9, 0.9];
-const LAMP_CELL: f64 = 0.45;
+const LIT: [bool; 8] = [false; 8];
+/// The lanterns' width and height, the height of their undersides, largest cell, in metres, and
+/// their light.
+const LAMP: [f64; 2] = [0.4, 0.5];
+const LAMP_HEIGHT: f64 = 1.9;
+const LAMP_CELL: f64 = 0.5;
 const LAMP_LIGHT: Material = Material::lamp("lamp_on", [34.0, 29.0, 22.0]);
 const LAMP_DARK: Material = Material::matte("lamp_off", [0.70, 0.70, 0.68]);
 /// What is in the rooms, in the order of [`LIT`], and the walls' paint.
-const ROOMS: [(Interior, Material); 6] = [
+const ROOMS: [(Interior, Material); 8] = [
     (Interior::Bedroom, DUSTY_BLUE),
     (Interior::Kitchen, COOL_WHITE),
     (Interior::Sitting, WARM_WHITE),
+    (Interior::Library, OCHRE),
     (Interior::Bathroom, COOL_WHITE),
     (Interior::Study, SAGE),
     (Interior::Bedroom, TERRACOTTA),
+    (Interior::Study, DUSTY_BLUE),
 ];
 /// Tag of the air in the hall and the doorways.
 const HALL_TAG: u16 = 10;
+/// Tag of the air in the windows.
+const WINDOW_TAG: u16 = 11;
 
 /// Builds the flat.
 pub fn flat() -> Mesh {
@@ -56,8 +70,8 @@ pub fn flat() -> Mesh {
     for (number, &(interior, _)) in ROOMS.iter().enumerate() {
         let frame = room(number).seen_from(front(number));
         let light = if LIT[number] { LAMP_LIGHT } else { LAMP_DARK };
-        let lamp = lamp_panel(LAMP[0], LAMP[1], LAMP_CELL, STEEL, light);
-        let at = frame.hung(frame.width / 2.0, frame.depth / 2.0, HEIGHT - 0.1);
+        let lamp = lantern(LAMP[0], LAMP[1], LAMP_CELL, STEEL, light);
+        let at = frame.hung(frame.width / 2.0, frame.depth / 2.0, LAMP_HEIGHT);
         mesh.place("lamp", &lamp, at);
         furnish(&mut mesh, interior, &frame, DETAIL, 40 + number as u64);
     }
@@ -67,22 +81,26 @@ pub fn flat() -> Mesh {
 }
 
 fn room(number: usize) -> Room {
-    let widths = WIDTHS[number / 3];
-    let before: f64 = widths[..number % 3].iter().map(|w| w + WALL).sum();
-    let south = if number < 3 {
+    let widths = WIDTHS[number / A_ROW];
+    let before: f64 = widths[..number % A_ROW].iter().map(|w| w + WALL).sum();
+    let south = if number < A_ROW {
         -WALL - ROOM_DEPTH
     } else {
         HALL_WIDTH + WALL
     };
-    Room::at(before, south, widths[number % 3], ROOM_DEPTH)
+    Room::at(before, south, widths[number % A_ROW], ROOM_DEPTH)
 }
 
 fn front(number: usize) -> Wall {
-    if number < 3 { Wall::North } else { Wall::South }
+    if number < A_ROW {
+        Wall::North
+    } else {
+        Wall::South
+    }
 }
 
 fn hall() -> Room {
-    let length = WIDTHS[0].iter().sum::<f64>() + 2.0 * WALL;
+    let length = WIDTHS[0].iter().sum::<f64>() + WALL * (A_ROW - 1) as f64;
     Room::at(0.0, 0.0, length, HALL_WIDTH)
 }
 
@@ -103,6 +121,14 @@ fn shell() -> Mesh {
             HALL_TAG,
         );
     }
+    for number in [0, A_ROW] {
+        let room = room(number);
+        space.carve(
+            [room.west - WINDOW_DEPTH, room.south + WINDOW[0], SILL[0]],
+            [room.west, room.south + WINDOW[1], SILL[1]],
+            WINDOW_TAG,
+        );
+    }
     let kitchen = room(1);
     space.carve(
         [kitchen.east, kitchen.north - ARCH[1], 0.0],
@@ -110,6 +136,10 @@ fn shell() -> Mesh {
         2,
     );
     space.mesh(|face| {
+        if face.air == WINDOW_TAG {
+            let is_pane = face.normal.x > 0.5;
+            return if is_pane { DAYLIGHT } else { CEILING_WHITE };
+        }
         let (floor, walls) = match ROOMS.get(usize::from(face.air)) {
             None => (PARQUET, OCHRE),
             Some((Interior::Bathroom | Interior::Kitchen, paint)) => (STONE_FLOOR, *paint),

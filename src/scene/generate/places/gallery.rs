@@ -35,11 +35,17 @@ const BLOCKS: [([f64; 2], [f64; 3]); 9] = [
     ([22.4, 14.2], [1.2, 1.2, 2.8]),
     ([18.4, 14.0], [1.0, 2.4, 1.8]),
 ];
+/// A window of frosted glass in the western wall: from y to y, sill and head in metres, its light.
+const WINDOW: [f64; 2] = [2.0, 8.0];
+const SILL: [f64; 2] = [1.0, 4.0];
+const DAYLIGHT: Material = Material::lamp("daylight", [16.0, 18.0, 22.0]);
+/// Tag of its pane; the standing walls have the tags from 1 on.
+const PANE: u16 = 100;
 /// Largest sides of mesh cells of the shell and of the blocks in metres.
 const SHELL_CELL: f64 = 3.2;
 const BLOCK_CELL: f64 = 4.0;
-/// The lamp panels' middles, sides and largest cell in metres, and their light.
-const LAMPS: [[f64; 2]; 2] = [[4.0, 8.0], [12.2, 8.0]];
+/// The lamp panel's middle, sides and largest cell in metres, and its light.
+const PANEL: [f64; 2] = [4.0, 8.0];
 const LAMP: [f64; 2] = [2.0, 1.0];
 const LAMP_CELL: f64 = 1.0;
 const LAMP_LIGHT: Material = Material::lamp("gallery_lamp", [60.0, 58.0, 54.0]);
@@ -52,6 +58,12 @@ pub fn gallery() -> Mesh {
         let tag = 1 + number as u16;
         space.add([from[0], from[1], 0.0], [to[0], to[1], HEIGHT], tag);
     }
+    // Glass as thick as it pleases: only its inner side shows.
+    space.add(
+        [-0.1, WINDOW[0], SILL[0]],
+        [HALL.west, WINDOW[1], SILL[1]],
+        PANE,
+    );
     let colours = [TERRACOTTA, DUSTY_BLUE, OCHRE, SAGE];
     let paint = |walls| Paint {
         floor: STONE_FLOOR,
@@ -60,14 +72,13 @@ pub fn gallery() -> Mesh {
     };
     let shell = space.mesh(|face| match face.solid {
         0 => paint(WARM_WHITE).of(face),
+        PANE => DAYLIGHT,
         wall => paint(colours[usize::from(wall) - 1]).of(face),
     });
     let mut mesh = Mesh::default();
     mesh.object("hall", &shell);
-    for [x, y] in LAMPS {
-        let lamp = lamp_panel(LAMP[0], LAMP[1], LAMP_CELL, STEEL, LAMP_LIGHT);
-        mesh.place("lamp", &lamp, HALL.hung(x, y, HEIGHT - 0.2));
-    }
+    let lamp = lamp_panel(LAMP[0], LAMP[1], LAMP_CELL, STEEL, LAMP_LIGHT);
+    mesh.place("lamp", &lamp, HALL.hung(PANEL[0], PANEL[1], HEIGHT - 0.2));
     for ([x, y], size) in BLOCKS {
         let piece = block(size, BLOCK_CELL, CEILING_WHITE);
         mesh.place("exhibit", &piece, HALL.inside(x, y, 0.0));

@@ -4,8 +4,8 @@
 use super::super::blocks::Blocks;
 use super::super::dice::Dice;
 use super::super::furniture::{
-    ShelfSize, bed, chair, cupboard, floor_lamp, lamp_panel, plant, round_table, shelf, sofa,
-    table, vase,
+    ShelfSize, bed, chair, cupboard, floor_lamp, lantern, plant, round_table, shelf, sofa, table,
+    vase,
 };
 use super::super::material::Material;
 use super::super::mesh::Mesh;
@@ -28,9 +28,11 @@ const FURNITURE_CELL: f64 = 1.5;
 const SEGMENTS: usize = 6;
 /// One room in so many is lit.
 const LIT_EVERY: usize = 5;
-/// The lamp panels' sides and largest cell in metres, and their light.
-const LAMP: [f64; 2] = [1.2, 1.2];
-const LAMP_CELL: f64 = 1.2;
+/// The lanterns' width and height, the height of their undersides, largest cell, in metres, and
+/// their light.
+const LAMP: [f64; 2] = [0.5, 0.6];
+const LAMP_HEIGHT: f64 = 2.1;
+const LAMP_CELL: f64 = 0.6;
 const LAMP_LIGHT: Material = Material::lamp("lamp_on", [40.0, 38.0, 34.0]);
 const LAMP_DARK: Material = Material::matte("lamp_off", [0.70, 0.70, 0.68]);
 
@@ -44,9 +46,9 @@ pub fn showrooms() -> Mesh {
         // Two columns on from row to row: the lit rooms lie like knights' moves on a chessboard.
         let lit = (column + 2 * row).is_multiple_of(LIT_EVERY);
         let light = if lit { LAMP_LIGHT } else { LAMP_DARK };
-        let lamp = lamp_panel(LAMP[0], LAMP[1], LAMP_CELL, STEEL, light);
+        let lamp = lantern(LAMP[0], LAMP[1], LAMP_CELL, STEEL, light);
         let middle = SIDE / 2.0;
-        mesh.place("lamp", &lamp, room.hung(middle, middle, HEIGHT - 0.1));
+        mesh.place("lamp", &lamp, room.hung(middle, middle, LAMP_HEIGHT));
         furnish(&mut mesh, &room, number);
     }
     mesh
