@@ -1,6 +1,7 @@
 //! What a solve leaves on disk: the solution as a mesh, its picture and its numbers.
 
 mod atomic;
+mod auto_camera;
 mod camera;
 mod cluster_colours;
 mod error;

@@ -43,14 +43,14 @@ impl Default for ViewConfig {
 
 /// A solved mesh made ready for pictures: polygons in Embree, patches in trees, values at vertices.
 pub struct View<'a> {
-    mesh: &'a SolvedMesh,
-    panels: Panels,
+    pub(super) mesh: &'a SolvedMesh,
+    pub(super) panels: Panels,
     smoothing: Smoothing,
     /// By panel: how irradiance becomes radiosity.
-    reflectance: Vec<[f32; 3]>,
+    pub(super) reflectance: Vec<[f32; 3]>,
     polygons: Vec<ViewPolygon>,
-    embree: CommittedScene,
-    frame: Frame,
+    pub(super) embree: CommittedScene,
+    pub(super) frame: Frame,
 }
 
 /// A triangle with one panel, or one on each side.
@@ -89,8 +89,14 @@ impl Frame {
         }
     }
 
+    /// A point of the file, in the units of the rays.
     pub fn point(&self, file: DVec3) -> Vec3 {
         ((file - self.centre) * self.scale).as_vec3()
+    }
+
+    /// A point in the units of the rays, in the file's.
+    pub fn to_file(self, point: DVec3) -> DVec3 {
+        point / self.scale + self.centre
     }
 }
 
@@ -209,14 +215,24 @@ impl<'a> View<'a> {
 
     /// Which side of its polygon a hit sees: decided by the eye's place and not by the ray's
     /// rounded direction.
-    fn side_seen(&self, hit: &Hit, camera: &PinHole) -> Side {
+    fn side_seen(&self, hit: &Hit, eye: DVec3) -> Side {
         let polygon = &self.polygons[hit.polygon.index()];
         let [a, b, c] = polygon.corners.map(|v| self.panels.positions[v as usize]);
-        if (b - a).cross(c - a).dot(camera.eye() - a) >= 0.0 {
+        if (b - a).cross(c - a).dot(eye - a) >= 0.0 {
             Side::Front
         } else {
             Side::Back
         }
+    }
+
+    /// The panel that a ray from `eye` meets; `None` for a side without light.
+    pub(super) fn panel_seen(&self, hit: &Hit, eye: DVec3) -> Option<usize> {
+        let polygon = &self.polygons[hit.polygon.index()];
+        match self.side_seen(hit, eye) {
+            Side::Front => polygon.front,
+            Side::Back => polygon.back,
+        }
+        .map(|p| p as usize)
     }
 
     /// Fills in the layers that hold for the pixel's middle.
@@ -224,7 +240,7 @@ impl<'a> View<'a> {
         let polygon = &self.polygons[hit.polygon.index()];
         let [a, b, c] = polygon.corners.map(|v| self.panels.positions[v as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let (sign, panel) = match self.side_seen(hit, camera) {
+        let (sign, panel) = match self.side_seen(hit, camera.eye()) {
             Side::Front => (1.0, polygon.front.or(polygon.back)),
             Side::Back => (-1.0, polygon.back.or(polygon.front)),
         };
@@ -242,14 +258,10 @@ impl<'a> View<'a> {
             irradiance: [0.0; 3],
         };
         let polygon = &self.polygons[hit.polygon.index()];
-        let panel = match self.side_seen(hit, camera) {
-            Side::Front => polygon.front,
-            Side::Back => polygon.back,
-        };
-        let Some(p) = panel else {
+        let Some(p) = self.panel_seen(hit, camera.eye()) else {
             return DARK;
         };
-        let panel = &self.panels.panels[p as usize];
+        let panel = &self.panels.panels[p];
         // Rounding may leave a hit a little outside of its triangle.
         let v = f64::from(hit.u).clamp(0.0, 1.0);
         let w = f64::from(hit.v).clamp(0.0, 1.0 - v);
@@ -268,7 +280,7 @@ impl<'a> View<'a> {
         }
         let local = local.map(|x| x.clamp(0.0, 1.0));
         let irradiance = self.smoothing.irradiance(leaf, local).map(|x| x as f32);
-        let reflectance = self.reflectance[p as usize];
+        let reflectance = self.reflectance[p];
         Seen {
             radiosity: std::array::from_fn(|c| {
                 let more = irradiance[c] - face.irradiance[c];

@@ -1,0 +1,382 @@
+//! A camera chosen from the solution alone: inside the lit space, level, and seeing much of it.
+//!
+//! Lit surface is represented by sample points, spread by area and capped brightness. Candidate eyes stand in
+//! the free space in front of lit surface. An eye and a direction score by the points that they see
+//! in the frame, less what spoils a picture: things too near, unlit backs, background. Nothing is
+//! random and ties go to the earlier candidate, so the same solution gives the same camera.
+
+use super::camera::Camera;
+use super::solved_mesh::triangle_area;
+use super::view::View;
+use crate::embree::{Hit, Ray};
+use crate::math::SampleSequence;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// Points that stand for the lit surface. Their number bounds the noise of a score to 1 in 30.
+const SURFACE_POINTS: usize = 1024;
+
+/// Surface points in front of which eyes are tried, evenly taken from all.
+const EYE_POINTS: usize = 128;
+
+/// Where between a surface and what faces it an eye is tried.
+const EYE_PLACES: [f64; 3] = [0.12, 0.5, 0.88];
+
+/// Height of the eye between floor and ceiling: a standing person's in a usual room.
+const EYE_HEIGHT: f64 = 0.6;
+
+/// Directions tried around the vertical, and slopes of the view: level, and a little downwards,
+/// because floors hold more of a scene than ceilings do.
+const AZIMUTHS: usize = 24;
+const SLOPES: [f64; 3] = [0.0, -0.12, -0.25];
+
+/// Vertical angle of view in degrees: wide, as interiors are photographed.
+const ANGLE_OF_VIEW: f64 = 60.0;
+
+/// Best pairs of eye and direction, a picture's worth of rays each, that are looked at closely.
+const FINALISTS: usize = 96;
+
+/// Rays across and down such a close look.
+const LOOK: [usize; 2] = [16, 10];
+
+/// What is nearer than this share of the seen space's size (the root of its area) stands in the way.
+const TOO_NEAR: f64 = 0.12;
+
+/// A point on lit surface, in the units of the rays.
+struct SurfacePoint {
+    position: DVec3,
+    normal: DVec3,
+}
+
+/// An eye, a direction (horizontal part of length 1) and the share of the points seen in the frame.
+#[derive(Clone, Copy)]
+struct Shot {
+    eye: DVec3,
+    forward: DVec3,
+    seen: f64,
+    /// Share of the points seen around the eye, framed or not.
+    around: f64,
+}
+
+impl View<'_> {
+    /// A camera for a picture of `size` pixels. A scene without light is seen from one corner of its
+    /// bounds.
+    pub fn automatic_camera(&self, size: [u32; 2]) -> Camera {
+        let up = self.up();
+        let (points, lit_area) = self.surface_points();
+        let aspect = f64::from(size[0].max(1)) / f64::from(size[1].max(1));
+        let frame = FrameShape::new(up, aspect);
+        let eyes = self.eyes(&points, up);
+        let shots: Vec<Shot> = eyes
+            .into_par_iter()
+            .map(|eye| self.best_shots(eye, &points, &frame))
+            .flatten_iter()
+            .collect();
+        let mut order: Vec<usize> = (0..shots.len()).collect();
+        order.sort_by(|&i, &j| shots[j].seen.total_cmp(&shots[i].seen).then(i.cmp(&j)));
+        order.truncate(FINALISTS);
+        let scores: Vec<f64> = order
+            .par_iter()
+            .map(|&i| shots[i].seen * self.quality(&shots[i], &frame, lit_area))
+            .collect();
+        let best = (0..order.len()).fold(None, |best: Option<usize>, i| match best {
+            Some(b) if scores[b] >= scores[i] => best,
+            _ => Some(i),
+        });
+        let (eye, forward) = best.map_or_else(
+            || self.overview(up),
+            |i| (shots[order[i]].eye, shots[order[i]].forward),
+        );
+        Camera {
+            eye: self.frame.to_file(eye),
+            target: self.frame.to_file(eye + forward),
+            up,
+            fov: ANGLE_OF_VIEW,
+            size,
+        }
+    }
+
+    /// The vertical: +y, the custom of OBJ files, or +z. Lamps shine downwards, and buildings are
+    /// lower than they are wide; y wins where neither tells.
+    fn up(&self) -> DVec3 {
+        /// Lamps tell more than proportions do: a tower is taller than wide.
+        const LAMPS: f64 = 2.0;
+        /// Decides between equals.
+        const CUSTOM: f64 = 0.1;
+        let mut lamps = DVec3::ZERO;
+        let mut power = 0.0;
+        for (p, panel) in self.panels.panels.iter().enumerate() {
+            let normal = self.panels.normal(panel);
+            for face in &self.mesh.faces[self.panels.leaf_range(panel)] {
+                let emitted: f64 = (0..3)
+                    .map(|c| {
+                        let reflected = self.reflectance[p][c] * face.irradiance[c];
+                        f64::from(face.radiosity[c] - reflected)
+                    })
+                    .sum();
+                let all: f64 = face.radiosity.iter().map(|&b| f64::from(b)).sum();
+                // Less is the rounding of the reflectance, not a lamp.
+                if emitted > 0.01 * all {
+                    let weight = emitted * self.mesh.area(face);
+                    lamps += weight * normal;
+                    power += weight;
+                }
+            }
+        }
+        let lamps = if power > 0.0 { lamps / power } else { lamps };
+        let extent = self.extent();
+        let score = |axis: DVec3| {
+            LAMPS * (-lamps.dot(axis)).max(0.0) + 1.0 - extent.dot(axis) / extent.max_element()
+        };
+        if score(DVec3::Z) > score(DVec3::Y) + CUSTOM {
+            DVec3::Z
+        } else {
+            DVec3::Y
+        }
+    }
+
+    /// Size of the bounding box in the units of the rays.
+    fn extent(&self) -> DVec3 {
+        let (least, greatest) = self.bounds();
+        (greatest - least).max(DVec3::splat(f64::MIN_POSITIVE))
+    }
+
+    fn bounds(&self) -> (DVec3, DVec3) {
+        self.panels.positions.iter().fold(
+            (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |(least, greatest), &p| {
+                let p = self.frame.point(p).as_dvec3();
+                (least.min(p), greatest.max(p))
+            },
+        )
+    }
+
+    /// A view of everything from one corner, for scenes without light.
+    fn overview(&self, up: DVec3) -> (DVec3, DVec3) {
+        let (least, greatest) = self.bounds();
+        if !least.is_finite() {
+            return (DVec3::ZERO, DVec3::X);
+        }
+        let centre = 0.5 * (least + greatest);
+        let aside = if up == DVec3::Y { DVec3::Z } else { DVec3::Y };
+        let away = (DVec3::X + aside + 0.7 * up).normalize() * (greatest - least).length() * 1.2;
+        (centre + away, -away)
+    }
+
+    /// Points spread over the lit surface, and its area in the units of the rays.
+    fn surface_points(&self) -> (Vec<SurfacePoint>, f64) {
+        let mean = |b: [f32; 3]| (f64::from(b[0]) + f64::from(b[1]) + f64::from(b[2])) / 3.0;
+        let corners = |leaf: usize| {
+            self.panels.leaves[leaf].corners.map(|v| {
+                self.frame
+                    .point(self.panels.positions[v as usize])
+                    .as_dvec3()
+            })
+        };
+        let area: Vec<f64> = (0..self.panels.leaves.len())
+            .map(|leaf| triangle_area(corners(leaf)))
+            .collect();
+        let lit: Vec<usize> = (0..area.len())
+            .filter(|&leaf| area[leaf] > 0.0 && mean(self.mesh.faces[leaf].radiosity) > 0.0)
+            .collect();
+        let lit_area: f64 = lit.iter().map(|&leaf| area[leaf]).sum();
+        let power: f64 = (lit.iter())
+            .map(|&leaf| area[leaf] * mean(self.mesh.faces[leaf].radiosity))
+            .sum();
+        if power == 0.0 || !power.is_finite() {
+            return (Vec::new(), 0.0);
+        }
+        // Capped at the mean, so that dim rooms count little and lamps no more than what they light.
+        let weight = |leaf: usize| {
+            area[leaf] * (mean(self.mesh.faces[leaf].radiosity) / (power / lit_area)).min(1.0)
+        };
+        let total: f64 = lit.iter().map(|&leaf| weight(leaf)).sum();
+        let sequence = SampleSequence::new(0);
+        let mut points = Vec::with_capacity(SURFACE_POINTS);
+        let mut passed = 0.0;
+        for &leaf in &lit {
+            passed += weight(leaf) / total;
+            // Evenly spaced along the sum of weights.
+            while points.len() < SURFACE_POINTS
+                && passed * SURFACE_POINTS as f64 > points.len() as f64 + 0.5
+            {
+                let [s, t, ..] = sequence.point(points.len() as u32).map(f64::from);
+                // The square root makes the points uniform over the triangle.
+                let (root, [a, b, c]) = (s.sqrt(), corners(leaf));
+                points.push(SurfacePoint {
+                    position: a * (1.0 - root) + b * (root * (1.0 - t)) + c * (root * t),
+                    normal: (b - a).cross(c - a).normalize_or_zero(),
+                });
+            }
+        }
+        (points, lit_area)
+    }
+
+    /// Free places in front of lit surface, at the height of a person where there is a floor.
+    fn eyes(&self, points: &[SurfacePoint], up: DVec3) -> Vec<DVec3> {
+        let (least, greatest) = self.bounds();
+        let stride = points.len().div_ceil(EYE_POINTS).max(1);
+        let mut eyes = Vec::new();
+        for point in points.iter().step_by(stride) {
+            let start = point.position + 1e-4 * point.normal;
+            let Some(free) = self.free_length(start, point.normal, least, greatest) else {
+                continue;
+            };
+            for place in EYE_PLACES {
+                let eye = start + point.normal * (free * place);
+                let above = self.free_length(eye, up, least, greatest);
+                let below = self.free_length(eye, -up, least, greatest);
+                if let (Some(above), Some(below)) = (above, below) {
+                    eyes.push(eye + up * (EYE_HEIGHT * (above + below) - below));
+                }
+            }
+        }
+        eyes
+    }
+
+    /// How far a ray goes before it meets something, or leaves the scene's bounds; `None` where
+    /// that is nowhere.
+    fn free_length(
+        &self,
+        from: DVec3,
+        direction: DVec3,
+        least: DVec3,
+        greatest: DVec3,
+    ) -> Option<f64> {
+        let leaves = (0..3)
+            .map(|axis| match direction[axis] {
+                d if d > 0.0 => (greatest[axis] - from[axis]) / d,
+                d if d < 0.0 => (least[axis] - from[axis]) / d,
+                _ => f64::INFINITY,
+            })
+            .fold(f64::INFINITY, f64::min);
+        let mut hits = Vec::with_capacity(1);
+        self.embree.closest_hits(&[ray(from, direction)], &mut hits);
+        let length = hits[0].map_or(leaves, |hit| f64::from(hit.t).min(leaves));
+        (length.is_finite() && length > 1e-3).then_some(length)
+    }
+
+    /// The best direction of each slope from an eye.
+    fn best_shots(&self, eye: DVec3, points: &[SurfacePoint], frame: &FrameShape) -> Vec<Shot> {
+        let facing: Vec<&SurfacePoint> = points
+            .iter()
+            .filter(|p| (eye - p.position).dot(p.normal) > 0.0)
+            .collect();
+        let rays: Vec<Ray> = facing
+            .iter()
+            .map(|p| Ray {
+                // The point's own surface is no obstacle.
+                tfar: 1.0 - 1e-3,
+                ..Ray::segment(eye.as_vec3(), p.position.as_vec3())
+            })
+            .collect();
+        let mut hits = Vec::new();
+        self.embree.closest_hits(&rays, &mut hits);
+        let visible: Vec<DVec3> = (facing.iter().zip(&hits))
+            .filter_map(|(p, hit)| hit.is_none().then_some(p.position - eye))
+            .collect();
+        let around = visible.len() as f64 / points.len() as f64;
+        SLOPES
+            .into_iter()
+            .filter_map(|slope| {
+                (0..AZIMUTHS)
+                    .map(|azimuth| {
+                        let forward = frame.forward(azimuth, slope);
+                        let seen = frame.count(forward, &visible);
+                        (forward, seen)
+                    })
+                    .reduce(|best, other| if other.1 > best.1 { other } else { best })
+                    .map(|(forward, seen)| Shot {
+                        eye,
+                        forward,
+                        seen: seen as f64 / points.len() as f64,
+                        around,
+                    })
+            })
+            .collect()
+    }
+
+    /// 1 for a picture full of lit surface at a distance, less for what spoils it.
+    fn quality(&self, shot: &Shot, frame: &FrameShape, lit_area: f64) -> f64 {
+        let near = TOO_NEAR * (shot.around * lit_area).sqrt();
+        let rays = frame.look(shot);
+        let mut hits = Vec::new();
+        self.embree.closest_hits(&rays, &mut hits);
+        let eye = self.frame.to_file(shot.eye);
+        let good = |hit: &Hit| {
+            let far = (f64::from(hit.t) / near).min(1.0);
+            match self.panel_seen(hit, eye) {
+                Some(_) => far,
+                None => 0.0,
+            }
+        };
+        let share = hits.iter().flatten().map(good).sum::<f64>() / hits.len() as f64;
+        // Squared: a quarter of the frame spoiled costs nearly half of the points.
+        share * share
+    }
+}
+
+/// A ray in the direction's own lengths.
+fn ray(from: DVec3, direction: DVec3) -> Ray {
+    Ray::half_line(from.as_vec3(), direction.as_vec3(), 0.0)
+}
+
+/// The frame of a level camera.
+struct FrameShape {
+    up: DVec3,
+    /// Two horizontal axes.
+    axes: [DVec3; 2],
+    /// Half width and half height at distance 1.
+    half: [f64; 2],
+}
+
+impl FrameShape {
+    fn new(up: DVec3, aspect: f64) -> Self {
+        let half_height = (0.5 * ANGLE_OF_VIEW.to_radians()).tan();
+        Self {
+            up,
+            axes: [DVec3::X, up.cross(DVec3::X)],
+            half: [aspect * half_height, half_height],
+        }
+    }
+
+    fn forward(&self, azimuth: usize, slope: f64) -> DVec3 {
+        let angle = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
+        self.axes[0] * angle.cos() + self.axes[1] * angle.sin() + self.up * slope
+    }
+
+    /// Unit forward, right and up of a view.
+    fn basis(&self, forward: DVec3) -> [DVec3; 3] {
+        let forward = forward.normalize();
+        let right = forward.cross(self.up).normalize();
+        [forward, right, right.cross(forward)]
+    }
+
+    /// How many of the directions lie in the frame.
+    fn count(&self, forward: DVec3, directions: &[DVec3]) -> usize {
+        let [forward, right, up] = self.basis(forward);
+        (directions.iter())
+            .filter(|d| {
+                let depth = d.dot(forward);
+                d.dot(right).abs() <= self.half[0] * depth
+                    && d.dot(up).abs() <= self.half[1] * depth
+            })
+            .count()
+    }
+
+    /// A coarse picture's rays, of unit depth.
+    fn look(&self, shot: &Shot) -> Vec<Ray> {
+        let [forward, right, up] = self.basis(shot.forward);
+        let eye: Vec3 = shot.eye.as_vec3();
+        let place = |i: usize, n: usize| 2.0 * (i as f64 + 0.5) / n as f64 - 1.0;
+        (0..LOOK[1])
+            .flat_map(|j| (0..LOOK[0]).map(move |i| (i, j)))
+            .map(|(i, j)| {
+                let direction = forward
+                    + right * (self.half[0] * place(i, LOOK[0]))
+                    + up * (self.half[1] * place(j, LOOK[1]));
+                Ray::half_line(eye, direction.as_vec3(), 0.0)
+            })
+            .collect()
+    }
+}
