@@ -1,6 +1,6 @@
 //! A camera chosen from the solution alone: inside the lit space, level, and seeing much of it.
 //!
-//! Lit surface is represented by sample points, spread by area and capped brightness. Candidate eyes stand in
+//! Lit surface is represented by sample points, spread by area and, up to the mean, by brightness. Candidate eyes stand in
 //! the free space in front of lit surface. An eye and a direction score by the points that they see
 //! in the frame, less what spoils a picture: things too near, unlit backs, background. Nothing is
 //! random and ties go to the earlier candidate, so the same solution gives the same camera.
@@ -21,6 +21,9 @@ const EYE_POINTS: usize = 128;
 
 /// Where between a surface and what faces it an eye is tried.
 const EYE_PLACES: [f64; 3] = [0.12, 0.5, 0.88];
+
+/// Nearest thing that an eye may have beside it, as a share of the mean distance around it.
+const CLEARANCE: f64 = 0.1;
 
 /// Height of the eye between floor and ceiling: a standing person's in a usual room.
 const EYE_HEIGHT: f64 = 0.6;
@@ -212,26 +215,59 @@ impl View<'_> {
         (points, lit_area)
     }
 
-    /// Free places in front of lit surface, at the height of a person where there is a floor.
+    /// Free places in front of lit surface: off the walls, and at the height of a person where
+    /// there is a floor.
     fn eyes(&self, points: &[SurfacePoint], up: DVec3) -> Vec<DVec3> {
-        let (least, greatest) = self.bounds();
+        let bounds = self.bounds();
         let stride = points.len().div_ceil(EYE_POINTS).max(1);
         let mut eyes = Vec::new();
         for point in points.iter().step_by(stride) {
             let start = point.position + 1e-4 * point.normal;
-            let Some(free) = self.free_length(start, point.normal, least, greatest) else {
+            let Some(free) = self.free_length(start, point.normal, bounds) else {
                 continue;
             };
             for place in EYE_PLACES {
                 let eye = start + point.normal * (free * place);
-                let above = self.free_length(eye, up, least, greatest);
-                let below = self.free_length(eye, -up, least, greatest);
-                if let (Some(above), Some(below)) = (above, below) {
-                    eyes.push(eye + up * (EYE_HEIGHT * (above + below) - below));
-                }
+                eyes.extend(
+                    self.off_walls(eye, up, bounds)
+                        .and_then(|eye| self.at_height(eye, up, bounds))
+                        .filter(|&eye| self.clear_around(eye, up, bounds)),
+                );
             }
         }
         eyes
+    }
+
+    /// The eye moved along both horizontal axes so far that neither side is much nearer.
+    fn off_walls(&self, mut eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
+        for axis in [DVec3::X, up.cross(DVec3::X)] {
+            let ahead = self.free_length(eye, axis, bounds)?;
+            let behind = self.free_length(eye, -axis, bounds)?;
+            let place = behind / (ahead + behind);
+            let wanted = place.clamp(EYE_PLACES[0], EYE_PLACES[2]);
+            eye += axis * ((wanted - place) * (ahead + behind));
+        }
+        Some(eye)
+    }
+
+    /// The eye moved up or down to [`EYE_HEIGHT`].
+    fn at_height(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
+        let above = self.free_length(eye, up, bounds)?;
+        let below = self.free_length(eye, -up, bounds)?;
+        Some(eye + up * (EYE_HEIGHT * (above + below) - below))
+    }
+
+    /// True when nothing stands close to the eye at its own height.
+    fn clear_around(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> bool {
+        let lengths: Vec<f64> = (0..AZIMUTHS)
+            .map(|azimuth| {
+                let angle = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
+                let direction = DVec3::X * angle.cos() + up.cross(DVec3::X) * angle.sin();
+                self.free_length(eye, direction, bounds).unwrap_or(0.0)
+            })
+            .collect();
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        lengths.iter().all(|&length| length >= CLEARANCE * mean)
     }
 
     /// How far a ray goes before it meets something, or leaves the scene's bounds; `None` where
@@ -240,8 +276,7 @@ impl View<'_> {
         &self,
         from: DVec3,
         direction: DVec3,
-        least: DVec3,
-        greatest: DVec3,
+        (least, greatest): (DVec3, DVec3),
     ) -> Option<f64> {
         let leaves = (0..3)
             .map(|axis| match direction[axis] {
@@ -378,5 +413,114 @@ impl FrameShape {
                 Ray::half_line(eye, direction.as_vec3(), 0.0)
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{SolvedMesh, fixture};
+    use super::*;
+    use crate::embree::{Device, DeviceConfig};
+    use crate::scene::Side;
+
+    const SIZE: [u32; 2] = [160, 90];
+
+    /// Two closed rooms side by side, 4 x 5 x 2.5 each (`axes` orders the coordinates), of which
+    /// only the second has light: from `lamp`, one of its sides.
+    fn two_rooms(axes: [usize; 3], lamp: u32) -> SolvedMesh {
+        let turn = |p: DVec3| DVec3::from_array(axes.map(|a| p[a]));
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for room in 0..2u32 {
+            let least = DVec3::new(100.0 + 4.5 * f64::from(room), 7.0, -3.0);
+            let corners = fixture::box_corners(least, least + DVec3::new(4.0, 5.0, 2.5));
+            positions.extend(corners.into_iter().map(turn));
+            triangles.extend(
+                (fixture::box_triangles(8 * room).into_iter())
+                    .map(|(v, face, surface)| (v, face + 6 * room, surface)),
+            );
+        }
+        let scene = fixture::scene(positions, &triangles, vec![fixture::grey(0.5, 0.0)]);
+        let solution = fixture::solve(&scene, fixture::fronts(&scene), 2, |facet, _| {
+            match scene.polygons[facet.polygon.index()].source_face {
+                face if face < 6 => (0.0, 0.0),
+                face if face == 6 + lamp => (50.0, 1.0),
+                _ => (0.5, 1.0),
+            }
+        });
+        SolvedMesh::new(&scene, &solution)
+    }
+
+    fn camera(mesh: &SolvedMesh) -> Camera {
+        let device = Device::new(&DeviceConfig::default()).unwrap();
+        View::new(mesh, &device).unwrap().automatic_camera(SIZE)
+    }
+
+    #[test]
+    fn the_camera_stands_in_the_lit_room_and_sees_it() {
+        let mesh = two_rooms([0, 1, 2], 5);
+        let camera = camera(&mesh);
+        assert_eq!(camera.up, DVec3::Z, "the lamp is the side +z");
+        let (least, greatest) = (DVec3::new(104.5, 7.0, -3.0), DVec3::new(108.5, 12.0, -0.5));
+        let wall = (camera.eye - least).min(greatest - camera.eye);
+        assert!(wall.min_element() > 0.1, "{}", camera.eye);
+        // Level up to the slopes tried, and upright.
+        let forward = (camera.target - camera.eye).normalize();
+        assert!(forward.dot(camera.up).abs() < 0.3);
+        // Across the room rather than into a wall nearby.
+        let device = Device::new(&DeviceConfig::default()).unwrap();
+        let picture = View::new(&mesh, &device)
+            .unwrap()
+            .render(
+                &camera.pin_hole().unwrap(),
+                &super::super::ViewConfig::default(),
+                &std::sync::atomic::AtomicBool::new(false),
+            )
+            .unwrap();
+        let mut depths: Vec<f32> = picture.pixels.iter().map(|p| p.depth).collect();
+        depths.sort_by(f32::total_cmp);
+        assert!(
+            depths[depths.len() / 2] > 2.5,
+            "{}",
+            depths[depths.len() / 2]
+        );
+        assert!(picture.pixels.iter().all(|p| p.radiance[0] > 0.0));
+    }
+
+    #[test]
+    fn the_vertical_is_where_the_lamps_shine_from() {
+        // File coordinates (x, z, y): the lamp's side +z of the fixture is +y of the file. Turning
+        // axes by one swap mirrors the scene, so sides are seen from outside; flip them back.
+        let mut mesh = two_rooms([0, 2, 1], 5);
+        for face in &mut mesh.faces {
+            face.vertices.swap(1, 2);
+            assert_eq!(face.side, Side::Front);
+        }
+        assert_eq!(camera(&mesh).up, DVec3::Y);
+    }
+
+    #[test]
+    fn a_scene_without_light_is_seen_from_outside() {
+        let mut mesh = two_rooms([0, 1, 2], 5);
+        for face in &mut mesh.faces {
+            face.radiosity = [0.0; 3];
+            face.irradiance = [0.0; 3];
+        }
+        let camera = camera(&mesh);
+        assert!(camera.pin_hole().is_ok());
+        assert!(camera.eye.x > 108.5, "{}", camera.eye);
+    }
+
+    #[test]
+    fn any_number_of_threads_chooses_the_same_camera() {
+        let mesh = two_rooms([0, 1, 2], 5);
+        let cameras = [1, 3].map(|threads| {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap()
+                .install(|| camera(&mesh))
+        });
+        assert_eq!(cameras[0], cameras[1]);
     }
 }

@@ -54,7 +54,13 @@ pub(crate) fn grey(reflectance: f64, emission: f64) -> Surface {
 /// The six quads of a box seen from inside, two triangles a quad; `source_face` counts quads in the
 /// order -x, +x, -y, +y, -z, +z.
 pub(crate) fn room(least: DVec3, greatest: DVec3, surface: Surface) -> Scene {
-    let positions = (0..8u32)
+    let positions = box_corners(least, greatest);
+    scene(positions, &box_triangles(0), vec![surface])
+}
+
+/// The corners of a box; bit 0, 1, 2 of the index choose the greater x, y, z.
+pub(crate) fn box_corners(least: DVec3, greatest: DVec3) -> Vec<DVec3> {
+    (0..8u32)
         .map(|i| {
             DVec3::new(
                 if i & 1 == 0 { least.x } else { greatest.x },
@@ -62,7 +68,11 @@ pub(crate) fn room(least: DVec3, greatest: DVec3, surface: Surface) -> Scene {
                 if i & 4 == 0 { least.z } else { greatest.z },
             )
         })
-        .collect();
+        .collect()
+}
+
+/// The sides of the box whose corners start at `first`, facing inwards, numbered as in [`room`].
+pub(crate) fn box_triangles(first: u32) -> Vec<([u32; 3], u32, u32)> {
     let quads: [[u32; 4]; 6] = [
         [0, 2, 6, 4],
         [1, 5, 7, 3],
@@ -71,11 +81,13 @@ pub(crate) fn room(least: DVec3, greatest: DVec3, surface: Surface) -> Scene {
         [0, 1, 3, 2],
         [4, 6, 7, 5],
     ];
-    let triangles: Vec<_> = (0u32..)
+    (0u32..)
         .zip(quads)
-        .flat_map(|(f, [a, b, c, d])| [([a, b, c], f, 0), ([a, c, d], f, 0)])
-        .collect();
-    scene(positions, &triangles, vec![surface])
+        .flat_map(|(f, quad)| {
+            let [a, b, c, d] = quad.map(|v| v + first);
+            [([a, b, c], f, 0), ([a, c, d], f, 0)]
+        })
+        .collect()
 }
 
 /// Splits the given facets at random, to `depth` at most, and gives each leaf the light that
