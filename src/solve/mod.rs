@@ -1,7 +1,24 @@
 //! Cluster hierarchical radiosity without links (paper, section 4).
 
+mod config;
+mod element;
+mod error;
+mod form_factor;
+mod ledger;
+mod observer;
+mod oracle;
+mod ownership;
+mod pass;
+mod push_pull;
+mod radiosity;
 mod solution;
+#[allow(clippy::module_inception, reason = "the solve of the solve stage")]
+mod solve;
 mod statistics;
 
-pub use solution::{PatchPath, Solution, SolvedPatch};
+pub use config::{ConfigError, Normalise, SolveConfig, Stop, Technique};
+pub use error::SolveError;
+pub use observer::{Observer, Silent};
+pub use solution::{PatchPath, Solution, SolvedPatch, split_triangle};
+pub use solve::{Solved, solve};
 pub use statistics::{PassStatistics, PowerLedger};

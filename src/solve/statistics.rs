@@ -35,6 +35,23 @@ pub struct PassStatistics {
     pub unshot: f64,
 }
 
+impl PassStatistics {
+    /// Adds the counts of a part of the pass.
+    pub fn add_counts(&mut self, part: &Self) {
+        self.exchanges += part.exchanges;
+        self.exchanges_blocked += part.exchanges_blocked;
+        self.exchanges_sampled_clear += part.exchanges_sampled_clear;
+        self.rays += part.rays;
+        self.rays_blocked += part.rays_blocked;
+        self.native_rays += part.native_rays;
+        self.native_rays_blocked += part.native_rays_blocked;
+        self.shafts += part.shafts;
+        self.occluded_claims += part.occluded_claims;
+        self.visible_claims += part.visible_claims;
+        self.exchanges_visible += part.exchanges_visible;
+    }
+}
+
 /// Where the emitted power went, in W, mean of the channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PowerLedger {

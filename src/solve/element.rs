@@ -1,0 +1,245 @@
+//! Elements as the solver meets them: a node of the hierarchy or a patch, with the geometry that
+//! the oracle, the form factor and the visibility tests need.
+
+use super::solution::{PatchPath, split_triangle};
+use crate::cluster::{Hierarchy, NodeKind};
+use crate::math::{Aabb, FacetId, NodeId};
+use crate::scene::Scene;
+use glam::Vec3;
+
+/// What kind of surface an element is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A volume cluster: bounds only.
+    Volume,
+    /// A face cluster.
+    Cluster,
+    /// A facet or a patch: corners counter-clockwise seen from its side.
+    Triangle([Vec3; 3]),
+}
+
+/// An element: polygon, patch, face cluster or volume cluster.
+#[derive(Clone, Copy, Debug)]
+pub struct Element {
+    /// The node, or for a patch the leaf of its facet.
+    pub node: NodeId,
+    /// Where in the facet; the root for every node.
+    pub path: PatchPath,
+    /// Kind and corners.
+    pub shape: Shape,
+    /// Box around it.
+    pub bounds: Aabb,
+    /// Area-weighted centroid.
+    pub centroid: Vec3,
+    /// Axis of the cone of normals, unit length; of a triangle its normal.
+    pub normal: Vec3,
+    /// Sine of the cone's half-angle; 1 beyond a right angle.
+    pub cone_sin: f32,
+    /// Cosine of the cone's half-angle; negative beyond a right angle.
+    pub cone_cos: f32,
+    /// Signed distance of the fitted plane along its normal (of a triangle `normal . corner`).
+    pub plane_offset: f32,
+    /// Normal of the fitted plane.
+    pub plane_normal: Vec3,
+    /// Greatest distance from the fitted plane.
+    pub deviation: f32,
+    /// Area.
+    pub area: f32,
+    /// Radius about the centroid of a sphere around the element.
+    pub radius: f32,
+    /// Facets covered.
+    pub first_facet: u32,
+    /// Number of facets covered; 1 for facets and patches.
+    pub facet_count: u32,
+}
+
+impl Element {
+    /// The element of a node.
+    pub fn of_node(scene: &Scene, hierarchy: &Hierarchy, id: NodeId) -> Self {
+        let node = hierarchy.node(id);
+        let shape = hierarchy.shape(id);
+        if node.kind == NodeKind::Facet {
+            let corners = scene.facet_corners(hierarchy.facets[node.first_facet as usize]);
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
+            let cross = (b - a).cross(c - a);
+            let normal = cross.normalize_or_zero().as_vec3();
+            return Self::of_triangle(
+                id,
+                PatchPath::ROOT,
+                corners,
+                normal,
+                (0.5 * cross.length()) as f32,
+                node.first_facet,
+            );
+        }
+        let far = (node.bounds.max - shape.centroid).max(shape.centroid - node.bounds.min);
+        let (cone_sin, cone_cos) = if shape.cone.half_angle >= std::f32::consts::FRAC_PI_2 {
+            (1.0, shape.cone.half_angle.cos())
+        } else {
+            shape.cone.half_angle.sin_cos()
+        };
+        Self {
+            node: id,
+            path: PatchPath::ROOT,
+            shape: match node.kind {
+                NodeKind::Volume => Shape::Volume,
+                _ => Shape::Cluster,
+            },
+            bounds: node.bounds,
+            centroid: shape.centroid,
+            normal: shape.cone.axis,
+            cone_sin,
+            cone_cos,
+            plane_offset: shape.plane.offset,
+            plane_normal: shape.plane.normal,
+            deviation: shape.deviation,
+            area: shape.area,
+            radius: far.length(),
+            first_facet: node.first_facet,
+            facet_count: node.facet_count,
+        }
+    }
+
+    fn of_triangle(
+        node: NodeId,
+        path: PatchPath,
+        corners: [Vec3; 3],
+        normal: Vec3,
+        area: f32,
+        facet: u32,
+    ) -> Self {
+        let [a, b, c] = corners;
+        let centroid = (a + b + c) * (1.0 / 3.0);
+        let radius2 = (a - centroid)
+            .length_squared()
+            .max((b - centroid).length_squared())
+            .max((c - centroid).length_squared());
+        Self {
+            node,
+            path,
+            shape: Shape::Triangle(corners),
+            bounds: Aabb {
+                min: a.min(b).min(c),
+                max: a.max(b).max(c),
+            },
+            centroid,
+            normal,
+            cone_sin: 0.0,
+            cone_cos: 1.0,
+            plane_offset: normal.dot(a),
+            plane_normal: normal,
+            deviation: 0.0,
+            area,
+            radius: radius2.sqrt(),
+            first_facet: facet,
+            facet_count: 1,
+        }
+    }
+
+    /// Child `which` of a triangle, split at its edge midpoints.
+    pub fn triangle_child(&self, corners: [Vec3; 3], which: u32) -> Self {
+        Self::of_triangle(
+            self.node,
+            self.path.child(which),
+            split_triangle(corners, which),
+            self.normal,
+            self.area * 0.25,
+            self.first_facet,
+        )
+    }
+
+    /// The facet of a triangle element.
+    pub fn facet(&self) -> FacetId {
+        debug_assert!(matches!(self.shape, Shape::Triangle(_)));
+        FacetId(self.first_facet)
+    }
+
+    /// True for facets and patches.
+    pub fn is_triangle(&self) -> bool {
+        matches!(self.shape, Shape::Triangle(_))
+    }
+
+    /// True when the two share a facet: one holds the other, since the hierarchy is a tree.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.first_facet < other.first_facet + other.facet_count
+            && other.first_facet < self.first_facet + self.facet_count
+    }
+
+    /// True when no point of this element has a normal with any part of `other` in front of it, up
+    /// to `tolerance` of depth: proof that nothing is exchanged (paper, section 5.3: the cone of
+    /// normals faces away).
+    ///
+    /// For every normal n of the cone and a in A, b in B: n.(b - a) <= n.D + |n|.h, with D between
+    /// the box centres and h the sum of the half-extents; and n lies within the cone about the axis.
+    pub fn faces_away(&self, other: &Self, tolerance: f32) -> bool {
+        match self.shape {
+            Shape::Volume => false,
+            Shape::Triangle(_) => self.plane_support(&other.bounds) <= tolerance,
+            Shape::Cluster => {
+                if self.cone_cos <= 0.0 {
+                    return false;
+                }
+                // Through the plane: n = cos p + sin q; the first term is the plane's support.
+                let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;
+                let by_plane = self.plane_support(&other.bounds)
+                    + self.deviation
+                    + 2.0 * self.cone_sin * reach;
+                if by_plane <= tolerance {
+                    return true;
+                }
+                let d = other.bounds.centre() - self.bounds.centre();
+                let h = other.bounds.half_extent() + self.bounds.half_extent();
+                let along = self.normal.dot(d);
+                let across = (d.length_squared() - along * along).max(0.0).sqrt();
+                let swing = if along > 0.0 && across * self.cone_cos <= along * self.cone_sin {
+                    d.length()
+                } else {
+                    along * self.cone_cos + across * self.cone_sin
+                };
+                swing + self.normal.abs().dot(h) + self.cone_sin * h.length() <= tolerance
+            }
+        }
+    }
+
+    /// True when every point of this element has all of `other` on the front of its plane, up to
+    /// `tolerance`: then one irradiance or flux vector stands for the whole cluster (Willmott et al. 1999).
+    pub fn faces_fully(&self, other: &Self, tolerance: f32) -> bool {
+        match self.shape {
+            Shape::Volume => false,
+            Shape::Triangle(_) => self.plane_low(&other.bounds) >= -tolerance,
+            Shape::Cluster => {
+                if self.cone_cos <= 0.0 {
+                    return false;
+                }
+                let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;
+                let by_plane = self.plane_low(&other.bounds)
+                    - self.deviation
+                    - 2.0 * self.cone_sin * reach;
+                if by_plane >= -tolerance {
+                    return true;
+                }
+                let d = other.bounds.centre() - self.bounds.centre();
+                let h = other.bounds.half_extent() + self.bounds.half_extent();
+                let along = self.normal.dot(d);
+                let across = (d.length_squared() - along * along).max(0.0).sqrt();
+                along * self.cone_cos
+                    - across * self.cone_sin
+                    - self.normal.abs().dot(h)
+                    - self.cone_sin * h.length()
+                    >= -tolerance
+            }
+        }
+    }
+
+    /// Greatest signed distance of a box to the element's plane.
+    fn plane_support(&self, bounds: &Aabb) -> f32 {
+        let n = self.plane_normal;
+        n.max(Vec3::ZERO).dot(bounds.max) + n.min(Vec3::ZERO).dot(bounds.min) - self.plane_offset
+    }
+
+    /// Least signed distance of a box to the element's plane.
+    fn plane_low(&self, bounds: &Aabb) -> f32 {
+        let n = self.plane_normal;
+        n.max(Vec3::ZERO).dot(bounds.min) + n.min(Vec3::ZERO).dot(bounds.max) - self.plane_offset
+    }
+}

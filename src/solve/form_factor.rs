@@ -1,0 +1,259 @@
+//! Irradiance that a uniformly radiant source of unit radiosity casts on a point: form factors from
+//! a differential receiver.
+//!
+//! Near triangles use the exact contour integral (Lambert; truth: 1/(2 pi) sum of theta_i (n . gamma_i)
+//! after clipping to the receiver's horizon). Far ones use a quadrature of the kernel
+//! cos cos / (pi r^2). Everything is a *vector* K with irradiance n . K, so that one evaluation
+//! serves every normal of a receiving cluster that has the source wholly in front.
+
+use super::element::{Element, Shape};
+use crate::cluster::Hierarchy;
+use crate::math::NodeId;
+use crate::scene::Scene;
+use glam::Vec3;
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// Beyond this many radii a three-point rule of degree 2 errs by less than (1/12)^4 = 5e-5.
+const CONTOUR_RADII: f32 = 12.0;
+/// Beyond this many radii the centroid alone errs by less than half (1/40)^2 = 3e-4.
+const POINT_RADII: f32 = 40.0;
+/// A cluster is taken as one flux vector beyond this many radii (its radius bounds its box, about
+/// twice its radius of gyration, so the error is below (1/24)^2 = 2e-3), else as its two children.
+const CLUSTER_RADII: f32 = 12.0;
+
+/// The vector K of a unit-radiosity triangle at `point`, clipped to the horizon of `normal` where
+/// that is given. Zero where the point lies behind the triangle.
+pub fn triangle_vector(
+    corners: [Vec3; 3],
+    source_normal: Vec3,
+    area: f32,
+    point: Vec3,
+    normal: Option<Vec3>,
+) -> Vec3 {
+    let rel = corners.map(|c| c - point);
+    // Height of the point over the source's plane; behind it there is no light.
+    let height = -source_normal.dot(rel[0]);
+    if height <= 0.0 {
+        return Vec3::ZERO;
+    }
+    if let Some(n) = normal {
+        let h = rel.map(|r| n.dot(r));
+        let low = h[0].min(h[1]).min(h[2]);
+        if low < 0.0 {
+            if h[0].max(h[1]).max(h[2]) <= 0.0 {
+                return Vec3::ZERO;
+            }
+            return contour_clipped(rel, h);
+        }
+    }
+    let centroid = (rel[0] + rel[1] + rel[2]) * (1.0 / 3.0);
+    let radius2 = rel.iter().fold(0.0f32, |m, r| m.max((*r - centroid).length_squared()));
+    let distance2 = centroid.length_squared();
+    if distance2 > POINT_RADII * POINT_RADII * radius2 {
+        let inverse = 1.0 / distance2;
+        return centroid * (area * height * inverse * inverse * FRAC_1_PI);
+    }
+    if distance2 > CONTOUR_RADII * CONTOUR_RADII * radius2 {
+        // The degree-2 rule at the three midpoints between the centroid and the corners.
+        let mut sum = Vec3::ZERO;
+        for r in rel {
+            let q = (centroid + r) * 0.5;
+            let inverse = 1.0 / q.length_squared();
+            sum += q * (inverse * inverse);
+        }
+        return sum * (area * height * (FRAC_1_PI / 3.0));
+    }
+    contour(&rel)
+}
+
+/// Lambert's contour integral over a polygon given relative to the receiving point,
+/// counter-clockwise seen from the point's side of it.
+fn contour(rel: &[Vec3]) -> Vec3 {
+    let mut sum = Vec3::ZERO;
+    let mut previous = rel[rel.len() - 1];
+    for &next in rel {
+        let cross = next.cross(previous);
+        let sine = cross.length();
+        // An edge that passes through the point, or of no length, subtends nothing.
+        if sine > 0.0 {
+            let theta = sine.atan2(previous.dot(next));
+            sum += cross * (theta / sine);
+        }
+        previous = next;
+    }
+    // Counter-clockwise seen from the point, next x previous turns gamma towards the polygon.
+    sum * (0.5 * FRAC_1_PI)
+}
+
+/// The contour integral of the part of a triangle above the horizon (`h >= 0`).
+fn contour_clipped(rel: [Vec3; 3], h: [f32; 3]) -> Vec3 {
+    let mut clipped = [Vec3::ZERO; 4];
+    let mut count = 0;
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        if h[i] >= 0.0 {
+            clipped[count] = rel[i];
+            count += 1;
+        }
+        if (h[i] >= 0.0) != (h[j] >= 0.0) {
+            let t = h[i] / (h[i] - h[j]);
+            clipped[count] = rel[i] + (rel[j] - rel[i]) * t;
+            count += 1;
+        }
+    }
+    contour(&clipped[..count])
+}
+
+/// The vector K of a unit-radiosity element at a point. A cluster must face the point fully.
+fn element_vector(scene: &Scene, hierarchy: &Hierarchy, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+    match source.shape {
+        Shape::Triangle(corners) => {
+            triangle_vector(corners, source.normal, source.area, point, normal)
+        }
+        Shape::Cluster => cluster_vector(scene, hierarchy, source.node, point, normal),
+        Shape::Volume => Vec3::ZERO,
+    }
+}
+
+fn cluster_vector(scene: &Scene, hierarchy: &Hierarchy, id: NodeId, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+    let Some(children) = hierarchy.children(id) else {
+        let leaf = Element::of_node(scene, hierarchy, id);
+        return element_vector(scene, hierarchy, &leaf, point, normal);
+    };
+    let node = hierarchy.node(id);
+    let shape = hierarchy.shape(id);
+    let rel = shape.centroid - point;
+    let distance2 = rel.length_squared();
+    let half = (node.bounds.max - node.bounds.min) * 0.5;
+    if distance2 > CLUSTER_RADII * CLUSTER_RADII * half.length_squared() {
+        let flux = (-shape.area_vector.dot(rel)).max(0.0);
+        let inverse = 1.0 / distance2;
+        let above = normal.is_none_or(|n| n.dot(rel) > 0.0);
+        return if above {
+            rel * (flux * inverse * inverse * FRAC_1_PI)
+        } else {
+            Vec3::ZERO
+        };
+    }
+    children
+        .into_iter()
+        .map(|child| cluster_vector(scene, hierarchy, child, point, normal))
+        .sum()
+}
+
+/// Mean over the receiver of the irradiance from a unit-radiosity source, unoccluded: a scalar for
+/// triangles, a vector for clusters (to be dotted with each facet's normal).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arrival {
+    /// Irradiance of a planar receiver.
+    Scalar(f32),
+    /// Irradiance vector of a cluster.
+    Vector(Vec3),
+}
+
+impl Arrival {
+    /// True when nothing arrives.
+    pub fn is_zero(&self) -> bool {
+        match *self {
+            Self::Scalar(e) => e <= 0.0,
+            Self::Vector(v) => v == Vec3::ZERO,
+        }
+    }
+}
+
+/// Midpoints between centroid and corners: the degree-2 rule on a triangle, equal weights.
+fn three_points([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
+    let g = (a + b + c) * (1.0 / 3.0);
+    [(g + a) * 0.5, (g + b) * 0.5, (g + c) * 0.5]
+}
+
+/// What arrives at `receiver` from `source` of unit radiosity, V = 1.
+///
+/// The number of receiver points grows towards contact, by the gap between the boxes over the
+/// receiver's radius: 1, 3, 12 or 48 points. Form factors at contact are thereby integrated and
+/// not guessed from the centres.
+pub fn arrival(scene: &Scene, hierarchy: &Hierarchy, source: &Element, receiver: &Element) -> Arrival {
+    let gap = source.bounds.distance(receiver.bounds);
+    match receiver.shape {
+        Shape::Triangle(corners) => {
+            let n = receiver.normal;
+            let at = |p: Vec3| {
+                n.dot(element_vector(scene, hierarchy, source, p, Some(n)))
+                    .max(0.0)
+            };
+            let rule = |t: [Vec3; 3]| three_points(t).into_iter().map(at).sum::<f32>() / 3.0;
+            let split = |t: [Vec3; 3]| -> [[Vec3; 3]; 4] {
+                std::array::from_fn(|k| super::solution::split_triangle(t, k as u32))
+            };
+            let e = if gap > 10.0 * receiver.radius {
+                at(receiver.centroid)
+            } else if gap > 1.5 * receiver.radius {
+                rule(corners)
+            } else if gap > 0.25 * receiver.radius {
+                split(corners).into_iter().map(rule).sum::<f32>() / 4.0
+            } else {
+                split(corners)
+                    .into_iter()
+                    .flat_map(split)
+                    .map(rule)
+                    .sum::<f32>()
+                    / 16.0
+            };
+            Arrival::Scalar(e)
+        }
+        Shape::Cluster => {
+            // Levels below the cluster whose centroids are the points: 1, 4 or 16 of them.
+            let levels = if gap > 10.0 * receiver.radius {
+                0
+            } else if gap > receiver.radius {
+                2
+            } else {
+                4
+            };
+            let sum = cluster_mean(scene, hierarchy, source, receiver.node, levels);
+            Arrival::Vector(sum / receiver.area)
+        }
+        Shape::Volume => Arrival::Scalar(0.0),
+    }
+}
+
+/// Area times mean irradiance vector of a receiving cluster, from the centroids `levels` below.
+fn cluster_mean(scene: &Scene, hierarchy: &Hierarchy, source: &Element, receiver: NodeId, levels: u32) -> Vec3 {
+    match (levels, hierarchy.children(receiver)) {
+        (0, _) | (_, None) => {
+            let shape = hierarchy.shape(receiver);
+            element_vector(scene, hierarchy, source, shape.centroid, None) * shape.area
+        }
+        (_, Some(children)) => children
+            .into_iter()
+            .map(|child| cluster_mean(scene, hierarchy, source, child, levels - 1))
+            .sum(),
+    }
+}
+
+/// An estimate from above of the form factor source -> receiver for the oracle: the point kernel with
+/// each cosine raised by the angular radius of the other end, which a zero at the centres cannot hide.
+pub fn oracle_form_factor(source: &Element, receiver: &Element) -> f32 {
+    let d = receiver.centroid - source.centroid;
+    let distance2 = d.length_squared();
+    if distance2 <= 0.0 {
+        return 1.0;
+    }
+    let inverse = 1.0 / distance2.sqrt();
+    let spread = (source.radius + receiver.radius) * inverse;
+    let cos_source = (source.normal.dot(d) * inverse).max(0.0) + spread + source.cone_sin;
+    let cos_receiver = (-receiver.normal.dot(d) * inverse).max(0.0) + spread + receiver.cone_sin;
+    let f = receiver.area * cos_source.min(1.0) * cos_receiver.min(1.0) / (PI * distance2 + receiver.area);
+    f.min(1.0)
+}
+
+/// A true upper bound of the form factor: from no point can a sphere of radius r at distance D
+/// take more than (r/D)^2 of the light.
+pub fn form_factor_bound(source: &Element, receiver: &Element) -> f32 {
+    let distance = (receiver.centroid - source.centroid).length() - source.radius;
+    if distance <= receiver.radius {
+        return 1.0;
+    }
+    let ratio = receiver.radius / distance;
+    (ratio * ratio).min(1.0)
+}

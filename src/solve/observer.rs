@@ -1,0 +1,23 @@
+//! How a long solve is watched and stopped.
+
+use super::statistics::PassStatistics;
+
+/// Hears of progress, from any thread.
+pub trait Observer: Sync {
+    /// A pass begins, made of `tasks` tasks.
+    fn pass_started(&self, _pass: u32, _tasks: usize) {}
+    /// A task has ended after `exchanges` exchanges.
+    fn task_done(&self, _exchanges: u64) {}
+    /// A pass has ended; `unshot_fraction` is the unshot power over the emitted.
+    fn pass_done(&self, _statistics: &PassStatistics, _unshot_fraction: f64) {}
+    /// True when the solve shall stop; asked often.
+    fn interrupted(&self) -> bool {
+        false
+    }
+}
+
+/// Hears nothing and never interrupts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Observer for Silent {}

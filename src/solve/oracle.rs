@@ -1,0 +1,118 @@
+//! The oracle: what is to become of a pair (source, receiver) (paper, section 4 and 5.3).
+//!
+//! A pair ends without exchange only on proof. It is split until both ends are facets, patches or
+//! clusters flat enough for one vector to stand for them; then BFA = radiosity x form factor x area,
+//! the power that it carries, decides.
+
+use super::element::{Element, Shape};
+use super::form_factor::{form_factor_bound, oracle_form_factor};
+
+/// What to do with a pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Decision {
+    /// Nothing is exchanged: proved.
+    Nothing,
+    /// So little that it may be dropped: an upper bound of the power, greatest channel.
+    Drop(f64),
+    /// Exchange energy at this level.
+    Exchange,
+    /// Replace the source by its children.
+    SplitSource,
+    /// Replace the receiver by its children.
+    SplitReceiver,
+}
+
+/// Settings of the oracle, in the units of the pass.
+#[derive(Clone, Copy, Debug)]
+pub struct Oracle {
+    /// Power below which a pair exchanges.
+    pub threshold: f64,
+    /// Least area of a patch, normalised.
+    pub min_area: f32,
+    /// Depth below a surface within which nothing counts, normalised.
+    pub tau: f32,
+}
+
+/// Cosine of the widest cone of normals that one irradiance vector may stand for: 20 degrees. Within it
+/// the vector is exact for the normals; what is lost is the spread of the positions.
+const CLUSTER_CONE_COS: f32 = 0.939_692_6;
+/// Share of the threshold below which a pair with a non-exchanging end may be dropped (design,
+/// section 6): a thousand dropped pairs are worth one exchange.
+const DROP_SHARE: f64 = 1.0e-3;
+/// A patch is not split once its radius is this many tau: its samples would start inside the margins.
+const LEAST_RADIUS_IN_TAU: f32 = 16.0;
+
+impl Oracle {
+    /// Decides a pair whose source has the unshot radiosity `radiosity` (greatest channel, positive).
+    pub fn decide(&self, source: &Element, receiver: &Element, radiosity: f64) -> Decision {
+        if source.overlaps(receiver) {
+            return self.decide_overlapping(source, receiver);
+        }
+        if source.faces_away(receiver, self.tau) || receiver.faces_away(source, self.tau) {
+            return Decision::Nothing;
+        }
+        let power = radiosity * f64::from(source.area);
+        let source_exchanges = self.exchanges(source, receiver);
+        let receiver_exchanges = self.exchanges(receiver, source);
+        if !(source_exchanges && receiver_exchanges) {
+            let bound = power * f64::from(form_factor_bound(source, receiver));
+            if bound < DROP_SHARE * self.threshold {
+                return Decision::Drop(bound);
+            }
+            return match (source_exchanges, receiver_exchanges) {
+                (true, false) => Decision::SplitReceiver,
+                (false, true) => Decision::SplitSource,
+                _ if source.radius >= receiver.radius => Decision::SplitSource,
+                _ => Decision::SplitReceiver,
+            };
+        }
+        if power * f64::from(oracle_form_factor(source, receiver)) < self.threshold {
+            return Decision::Exchange;
+        }
+        match (self.can_split(source), self.can_split(receiver)) {
+            (false, false) => Decision::Exchange,
+            (true, false) => Decision::SplitSource,
+            (false, true) => Decision::SplitReceiver,
+            (true, true) if source.area >= receiver.area => Decision::SplitSource,
+            (true, true) => Decision::SplitReceiver,
+        }
+    }
+
+    /// One end holds the other, or both are the same.
+    fn decide_overlapping(&self, source: &Element, receiver: &Element) -> Decision {
+        let larger = if source.facet_count >= receiver.facet_count {
+            source
+        } else {
+            receiver
+        };
+        // Planar within tau, every facet in front of every other's plane by tau at most: no exchange.
+        if larger.is_triangle() || (larger.cone_cos > 0.0 && larger.faces_away(larger, self.tau)) {
+            Decision::Nothing
+        } else if source.facet_count >= receiver.facet_count {
+            Decision::SplitSource
+        } else {
+            Decision::SplitReceiver
+        }
+    }
+
+    /// True when energy may be exchanged at `element` with `other` as the other end.
+    fn exchanges(&self, element: &Element, other: &Element) -> bool {
+        match element.shape {
+            Shape::Triangle(_) => true,
+            Shape::Volume => false,
+            Shape::Cluster => {
+                element.cone_cos >= CLUSTER_CONE_COS && element.faces_fully(other, self.tau)
+            }
+        }
+    }
+
+    fn can_split(&self, element: &Element) -> bool {
+        match element.shape {
+            Shape::Triangle(_) => {
+                element.area >= 4.0 * self.min_area
+                    && element.radius > LEAST_RADIUS_IN_TAU * self.tau
+            }
+            _ => true,
+        }
+    }
+}

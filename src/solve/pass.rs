@@ -1,0 +1,405 @@
+//! One pass: the scene's unshot radiosity is shot onto the scene itself (paper, sections 4 and 6.1).
+//!
+//! Pairs (source, receiver) are walked from the root down without storing links (Stamminger et al.
+//! 1998). Every task owns its receivers and reads sources from the state frozen before the pass, so the
+//! result has the same bits at any number of threads.
+
+use super::config::{SolveConfig, Technique};
+use super::element::{Element, Shape};
+use super::form_factor::{Arrival, arrival};
+use super::observer::Observer;
+use super::oracle::{Decision, Oracle};
+use super::push_pull::local_children;
+use super::radiosity::{Gatherer, Radiosity, Shooter};
+use super::statistics::PassStatistics;
+use crate::cluster::{Hierarchy, NodeKind};
+use crate::embree::CommittedScene;
+use crate::math::{NodeId, hash_u64};
+use crate::scene::Scene;
+use crate::visibility::{Surface, SurfacePoint, sample_visibility};
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// What stays the same during a solve.
+#[derive(Clone, Copy)]
+pub struct SolveContext<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its hierarchy.
+    pub hierarchy: &'a Hierarchy,
+    /// Its polygons, in Embree.
+    pub embree: &'a CommittedScene,
+    /// Unit normal of each facet.
+    pub normals: &'a [Vec3],
+    /// Sum of the areas of the facets before each facet, and of all at the end.
+    pub area_before: &'a [f64],
+    /// Area of the scene, one side of each polygon, normalised.
+    pub polygon_area: f64,
+    /// Depth below a surface within which nothing blocks, normalised.
+    pub tau: f32,
+    /// Who watches.
+    pub observer: &'a dyn Observer,
+}
+
+/// What stays the same during a pass.
+#[derive(Clone, Copy)]
+struct Pass<'a, const C: usize> {
+    context: SolveContext<'a>,
+    shooters: &'a [Shooter<C>],
+    node_unshot: &'a [[f32; C]],
+    owner_of_facet: &'a [u32],
+    first_facets: &'a [u32],
+    oracle: Oracle,
+    technique: Technique,
+    rays: u32,
+    /// Hash of the seed and the pass.
+    key: u64,
+    /// Power that all owners together may drop.
+    drop_budget: f64,
+}
+
+/// What a pass did.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PassOutcome {
+    /// Counts; `seconds` and `unshot` are left to the caller.
+    pub statistics: PassStatistics,
+    /// Power dropped, greatest channel, an upper bound.
+    pub dropped: f64,
+    /// True when the observer asked to stop: the light is then worth nothing.
+    pub interrupted: bool,
+}
+
+/// Share of the emitted power that may be dropped in pass `k`: all passes together stay below 1e-3 (design,
+/// section 6), and halving follows the unshot power down.
+fn drop_share(pass: u32) -> f64 {
+    1.0e-3 * 0.5f64.powi(pass.min(1000) as i32)
+}
+
+/// Visits between two questions to the observer: a few hundred microseconds.
+const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
+
+/// Runs pass number `pass`. `emitted` is the emitted power, greatest channel, in the normalised units of the
+/// light; gathered irradiance is left in `light.gatherers`, to be pushed by the caller.
+pub fn run_pass<const C: usize>(
+    context: SolveContext<'_>,
+    config: &SolveConfig,
+    light: &mut Radiosity<C>,
+    pass: u32,
+    emitted: f64,
+) -> PassOutcome {
+    let Radiosity {
+        shooters,
+        gatherers,
+        node_unshot,
+        owner_of_facet,
+        first_facets,
+    } = light;
+    let pass_data = Pass {
+        context,
+        shooters,
+        node_unshot,
+        owner_of_facet,
+        first_facets,
+        oracle: Oracle {
+            threshold: config.epsilon * emitted,
+            min_area: (config.min_area * context.polygon_area) as f32,
+            tau: context.tau,
+        },
+        technique: config.technique,
+        rays: config.rays,
+        key: hash_u64(config.seed ^ hash_u64(u64::from(pass))),
+        drop_budget: drop_share(pass) * emitted,
+    };
+    context.observer.pass_started(pass, gatherers.len());
+    // Each owner is one task; the tasks' outcomes are summed in order.
+    let outcomes: Vec<PassOutcome> = gatherers
+        .par_iter_mut()
+        .with_max_len(1)
+        .map(|gatherer| {
+            let outcome = Task::new(pass_data, gatherer).run();
+            context.observer.task_done(outcome.statistics.exchanges);
+            outcome
+        })
+        .collect();
+    let mut sum = PassOutcome::default();
+    for outcome in outcomes {
+        sum.statistics.add_counts(&outcome.statistics);
+        sum.dropped += outcome.dropped;
+        sum.interrupted |= outcome.interrupted;
+    }
+    sum.statistics.pass = pass;
+    sum
+}
+
+/// A source in the walk: the element, and where its unshot radiosity stands.
+#[derive(Clone, Copy)]
+struct Source {
+    element: Element,
+    /// Owner of the facet; of use to triangles only.
+    owner: u32,
+    /// Patch of the owner that holds the radiosity: itself, or the frozen leaf that it is a part of.
+    slot: u32,
+}
+
+/// A receiver in the walk: the element, and a cluster's place in its owner's depth-first order.
+#[derive(Clone, Copy)]
+struct Receiver {
+    element: Element,
+    local: u32,
+}
+
+/// One owner's share of a pass.
+struct Task<'a, 'g, const C: usize> {
+    pass: Pass<'a, C>,
+    gatherer: &'g mut Gatherer<C>,
+    outcome: PassOutcome,
+    drop_budget: f64,
+    visits: u32,
+}
+
+impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
+    fn new(pass: Pass<'a, C>, gatherer: &'g mut Gatherer<C>) -> Self {
+        let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
+        Self {
+            pass,
+            gatherer,
+            outcome: PassOutcome::default(),
+            drop_budget: pass.drop_budget * share,
+            visits: 0,
+        }
+    }
+
+    fn run(mut self) -> PassOutcome {
+        let source = self.source_of_node(Hierarchy::ROOT);
+        let receiver = Receiver {
+            element: Element::of_node(
+                self.pass.context.scene,
+                self.pass.context.hierarchy,
+                self.gatherer.root,
+            ),
+            local: 0,
+        };
+        self.walk(&source, &receiver);
+        self.outcome
+    }
+
+    fn source_of_node(&self, id: NodeId) -> Source {
+        let context = &self.pass.context;
+        let node = context.hierarchy.node(id);
+        let (owner, slot) = if node.kind == NodeKind::Facet {
+            let owner = self.pass.owner_of_facet[node.first_facet as usize];
+            (owner, node.first_facet - self.pass.first_facets[owner as usize])
+        } else {
+            (0, 0)
+        };
+        Source {
+            element: Element::of_node(context.scene, context.hierarchy, id),
+            owner,
+            slot,
+        }
+    }
+
+    fn radiosity(&self, source: &Source) -> &[f32; C] {
+        if source.element.is_triangle() {
+            &self.pass.shooters[source.owner as usize].unshot[source.slot as usize]
+        } else {
+            &self.pass.node_unshot[source.element.node.index()]
+        }
+    }
+
+    fn walk(&mut self, source: &Source, receiver: &Receiver) {
+        let greatest = self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x));
+        if greatest <= 0.0 || self.is_interrupted() {
+            return;
+        }
+        let decision =
+            self.pass
+                .oracle
+                .decide(&source.element, &receiver.element, f64::from(greatest));
+        match decision {
+            Decision::Nothing => {}
+            Decision::Drop(power) if self.outcome.dropped + power <= self.drop_budget => {
+                self.outcome.dropped += power;
+            }
+            // The budget is spent: go on down where something can be split.
+            Decision::Drop(_) => {
+                if source.element.radius >= receiver.element.radius && !source.element.is_triangle()
+                    || receiver.element.is_triangle()
+                {
+                    self.split_source(source, receiver);
+                } else {
+                    self.split_receiver(source, receiver);
+                }
+            }
+            Decision::Exchange => self.exchange(source, receiver),
+            Decision::SplitSource => self.split_source(source, receiver),
+            Decision::SplitReceiver => self.split_receiver(source, receiver),
+        }
+    }
+
+    fn is_interrupted(&mut self) -> bool {
+        self.visits = self.visits.wrapping_add(1);
+        if self.visits.is_multiple_of(VISITS_BETWEEN_QUESTIONS) {
+            self.outcome.interrupted |= self.pass.context.observer.interrupted();
+        }
+        self.outcome.interrupted
+    }
+
+    fn split_source(&mut self, source: &Source, receiver: &Receiver) {
+        if let Shape::Triangle(corners) = source.element.shape {
+            let first = self.pass.shooters[source.owner as usize].children[source.slot as usize];
+            for which in 0..4 {
+                let child = Source {
+                    element: source.element.triangle_child(corners, which),
+                    owner: source.owner,
+                    // Below a frozen leaf the source is split virtually: the leaf's radiosity serves.
+                    slot: if first == 0 { source.slot } else { first + which },
+                };
+                self.walk(&child, receiver);
+            }
+        } else if let Some(children) = self.pass.context.hierarchy.children(source.element.node) {
+            for child in children {
+                let child = self.source_of_node(child);
+                self.walk(&child, receiver);
+            }
+        }
+    }
+
+    fn split_receiver(&mut self, source: &Source, receiver: &Receiver) {
+        let context = self.pass.context;
+        if let Shape::Triangle(corners) = receiver.element.shape {
+            for which in 0..4 {
+                let child = Receiver {
+                    element: receiver.element.triangle_child(corners, which),
+                    local: 0,
+                };
+                self.walk(source, &child);
+            }
+        } else if let Some(children) = context.hierarchy.children(receiver.element.node) {
+            let locals = local_children(context.hierarchy, children[0], receiver.local as usize);
+            for (child, local) in children.into_iter().zip(locals) {
+                let child = Receiver {
+                    element: Element::of_node(context.scene, context.hierarchy, child),
+                    local: local as u32,
+                };
+                self.walk(source, &child);
+            }
+        }
+    }
+
+    /// Transfers energy: radiosity x form factor x visibility.
+    fn exchange(&mut self, source: &Source, receiver: &Receiver) {
+        let context = self.pass.context;
+        let unoccluded = arrival(
+            context.scene,
+            context.hierarchy,
+            &source.element,
+            &receiver.element,
+        );
+        if unoccluded.is_zero() {
+            return;
+        }
+        self.outcome.statistics.exchanges += 1;
+        let visibility = self.visibility(&source.element, &receiver.element);
+        if visibility > 0.0 {
+            let radiosity = self.radiosity(source).map(f64::from);
+            self.deposit(receiver, unoccluded, radiosity.map(|b| b * f64::from(visibility)));
+        }
+    }
+
+    fn visibility(&mut self, source: &Element, receiver: &Element) -> f32 {
+        match self.pass.technique {
+            Technique::Unoccluded => 1.0,
+            Technique::Normal => self.sample(source, receiver),
+        }
+    }
+
+    fn sample(&mut self, source: &Element, receiver: &Element) -> f32 {
+        let context = self.pass.context;
+        let key = exchange_key(self.pass.key, source, receiver);
+        let sampled = sample_visibility(
+            context.embree,
+            &SampledElement {
+                element: source,
+                context,
+            },
+            &SampledElement {
+                element: receiver,
+                context,
+            },
+            self.pass.rays,
+            key,
+            self.pass.oracle.tau,
+        );
+        let statistics = &mut self.outcome.statistics;
+        statistics.rays += u64::from(sampled.rays);
+        statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        statistics.exchanges_blocked += u64::from(sampled.all_blocked);
+        statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
+        sampled.visibility
+    }
+
+    fn deposit(&mut self, receiver: &Receiver, unoccluded: Arrival, light: [f64; C]) {
+        match unoccluded {
+            Arrival::Scalar(irradiance) => {
+                let element = &receiver.element;
+                let at = self.gatherer.patch(element.facet(), element.path);
+                for (sum, b) in self.gatherer.gathered[at].iter_mut().zip(light) {
+                    *sum += b * f64::from(irradiance);
+                }
+            }
+            Arrival::Vector(vector) => {
+                let vector = vector.as_dvec3();
+                let sums = &mut self.gatherer.vectors[receiver.local as usize];
+                for (sum, b) in sums.iter_mut().zip(light) {
+                    *sum += vector * b;
+                }
+            }
+        }
+    }
+}
+
+/// The name of an exchange's samples: (receiver, source, pass, seed).
+fn exchange_key(pass_key: u64, source: &Element, receiver: &Element) -> u64 {
+    let end = |e: &Element| hash_u64(u64::from(e.node.0) ^ e.path.0.rotate_left(32));
+    hash_u64(end(receiver).wrapping_add(hash_u64(end(source) ^ pass_key)))
+}
+
+/// An element as a surface to sample.
+struct SampledElement<'a> {
+    element: &'a Element,
+    context: SolveContext<'a>,
+}
+
+impl Surface for SampledElement<'_> {
+    fn point(&self, u: f32, v: f32) -> SurfacePoint {
+        if let Shape::Triangle(corners) = self.element.shape {
+            return SurfacePoint {
+                position: triangle_point(corners, u, v),
+                normal: self.element.normal,
+            };
+        }
+        // Choose a facet by area with u, and use what is left of u inside it.
+        let first = self.element.first_facet as usize;
+        let last = first + self.element.facet_count as usize;
+        let before = &self.context.area_before[first..=last];
+        let target = before[0] + f64::from(u) * (before[before.len() - 1] - before[0]);
+        let chosen = before[1..before.len() - 1].partition_point(|&x| x <= target);
+        let rest = (target - before[chosen]) / (before[chosen + 1] - before[chosen]);
+        let facet = first + chosen;
+        let corners = self
+            .context
+            .scene
+            .facet_corners(self.context.hierarchy.facets[facet]);
+        SurfacePoint {
+            position: triangle_point(corners, rest as f32, v),
+            normal: self.context.normals[facet],
+        }
+    }
+}
+
+/// Uniform point of a triangle from a point of the unit square, folded along its diagonal.
+fn triangle_point([a, b, c]: [Vec3; 3], u: f32, v: f32) -> Vec3 {
+    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+    a + (b - a) * u + (c - a) * v
+}

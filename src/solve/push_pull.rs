@@ -1,0 +1,157 @@
+//! After a pass: push what was gathered down to the leaves, reflect it, pull the new radiosity up
+//! (paper, section 4; Hanrahan et al. 1991).
+
+use super::radiosity::{Gatherer, Light, Shooter};
+use crate::cluster::{Hierarchy, NodeKind};
+use crate::math::{FacetId, NodeId};
+use glam::{DVec3, Vec3};
+
+/// What the push needs to know of the facets.
+pub struct FacetProperties<'a, const C: usize> {
+    /// Reflectance of each facet.
+    pub reflectance: &'a [Light<C>],
+    /// Unit normal of each facet, on its side.
+    pub normals: &'a [Vec3],
+}
+
+/// Pushes an owner's gathered irradiance (times `scale`, the row normalisation) to its leaves, adds it to
+/// their totals, and makes `shooter` the reflected light that the next pass shoots.
+pub fn push_pull<const C: usize>(
+    hierarchy: &Hierarchy,
+    facets: &FacetProperties<C>,
+    gatherer: &mut Gatherer<C>,
+    shooter: &mut Shooter<C>,
+    scale: f64,
+) {
+    shooter.children.clone_from(&gatherer.children);
+    shooter.unshot.resize(gatherer.children.len(), [0.0; C]);
+    push_nodes(hierarchy, facets, gatherer);
+    for facet in 0..gatherer.facet_count {
+        let reflectance = facets.reflectance[(gatherer.first_facet + facet) as usize];
+        reflect(gatherer, shooter, facet as usize, [0.0; C], &reflectance, scale);
+    }
+}
+
+/// Adds the irradiance vectors of clusters, dotted with each facet's normal, to the facets.
+fn push_nodes<const C: usize>(
+    hierarchy: &Hierarchy,
+    facets: &FacetProperties<C>,
+    gatherer: &mut Gatherer<C>,
+) {
+    if gatherer.vectors.is_empty() {
+        return;
+    }
+    // (node, its place in depth-first order, sum of the vectors above it)
+    let mut stack = vec![(gatherer.root, 0usize, [DVec3::ZERO; C])];
+    while let Some((node, local, above)) = stack.pop() {
+        let own = std::mem::replace(&mut gatherer.vectors[local], [DVec3::ZERO; C]);
+        let sum: [DVec3; C] = std::array::from_fn(|c| above[c] + own[c]);
+        if hierarchy.node(node).kind == NodeKind::Facet {
+            let facet = hierarchy.facet_of_leaf(node);
+            let normal = facets.normals[facet.index()].as_dvec3();
+            let gathered = &mut gatherer.gathered[(facet.0 - gatherer.first_facet) as usize];
+            for c in 0..C {
+                // A cluster receives only what is in front of all its facets: the dot product is
+                // negative by rounding alone.
+                gathered[c] += normal.dot(sum[c]).max(0.0);
+            }
+        } else if let Some([a, b]) = hierarchy.children(node) {
+            let [la, lb] = local_children(hierarchy, a, local);
+            stack.push((b, lb, sum));
+            stack.push((a, la, sum));
+        }
+    }
+}
+
+/// Places of the two children in the owner's depth-first order: a subtree of k leaves has 2 k - 1 nodes.
+pub fn local_children(hierarchy: &Hierarchy, first_child: NodeId, local: usize) -> [usize; 2] {
+    let first = local + 1;
+    let leaves = hierarchy.node(first_child).facet_count as usize;
+    [first, first + 2 * leaves - 1]
+}
+
+/// Pushes irradiance down a facet's patches, reflects at the leaves, pulls radiosity up.
+fn reflect<const C: usize>(
+    gatherer: &mut Gatherer<C>,
+    shooter: &mut Shooter<C>,
+    at: usize,
+    above: Light<C>,
+    reflectance: &Light<C>,
+    scale: f64,
+) {
+    let own = std::mem::replace(&mut gatherer.gathered[at], [0.0; C]);
+    let sum: Light<C> = std::array::from_fn(|c| above[c] + own[c]);
+    let first = gatherer.children[at] as usize;
+    if first == 0 {
+        for c in 0..C {
+            let irradiance = sum[c] * scale;
+            gatherer.total[at][c] += irradiance;
+            shooter.unshot[at][c] = (reflectance[c] * irradiance) as f32;
+        }
+        return;
+    }
+    for child in first..first + 4 {
+        reflect(gatherer, shooter, child, sum, reflectance, scale);
+    }
+    // The four children have equal areas.
+    shooter.unshot[at] = std::array::from_fn(|c| {
+        0.25 * (first..first + 4).map(|k| shooter.unshot[k][c]).sum::<f32>()
+    });
+}
+
+/// Area-weighted sums over an owner's leaves of a function of (leaf index, its area): used by the ledger.
+pub fn sum_leaves<const C: usize>(
+    gatherer: &Gatherer<C>,
+    facet_area: impl Fn(FacetId) -> f64,
+    mut add: impl FnMut(FacetId, usize, f64),
+) {
+    let mut stack = Vec::new();
+    for local in 0..gatherer.facet_count {
+        let facet = FacetId(gatherer.first_facet + local);
+        stack.push((local as usize, facet_area(facet)));
+        while let Some((at, area)) = stack.pop() {
+            match gatherer.children[at] as usize {
+                0 => add(facet, at, area),
+                first => stack.extend((first..first + 4).rev().map(|k| (k, area * 0.25))),
+            }
+        }
+    }
+}
+
+/// Power that an owner's receivers gathered in this pass at all levels, before it is pushed.
+pub fn gathered_power<const C: usize>(
+    hierarchy: &Hierarchy,
+    gatherer: &Gatherer<C>,
+    facet_area: impl Fn(FacetId) -> f64,
+) -> Light<C> {
+    let mut sum = [0.0; C];
+    let mut add = |light: &Light<C>, area: f64| {
+        for c in 0..C {
+            sum[c] += light[c] * area;
+        }
+    };
+    let mut stack = Vec::new();
+    for local in 0..gatherer.facet_count {
+        stack.push((local as usize, facet_area(FacetId(gatherer.first_facet + local))));
+        while let Some((at, area)) = stack.pop() {
+            add(&gatherer.gathered[at], area);
+            match gatherer.children[at] as usize {
+                0 => {}
+                first => stack.extend((first..first + 4).map(|k| (k, area * 0.25))),
+            }
+        }
+    }
+    let mut nodes = vec![(gatherer.root, 0usize)];
+    while let Some((node, local)) = nodes.pop() {
+        let Some(vectors) = gatherer.vectors.get(local) else {
+            break;
+        };
+        let area_vector = hierarchy.shape(node).area_vector.as_dvec3();
+        add(&std::array::from_fn(|c| vectors[c].dot(area_vector)), 1.0);
+        if let Some([a, b]) = hierarchy.children(node) {
+            let [la, lb] = local_children(hierarchy, a, local);
+            nodes.extend([(a, la), (b, lb)]);
+        }
+    }
+    sum
+}

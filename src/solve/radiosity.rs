@@ -1,0 +1,170 @@
+//! The light of a solve in progress: what each element has yet to shoot (frozen during a pass), and
+//! what each owner's receivers have gathered.
+//!
+//! An owner holds a contiguous range of facets. Its patches stand in one array: the first entries
+//! are the facets themselves, children of a patch are four in a row.
+
+use super::ownership::owner_cut;
+use super::solution::PatchPath;
+use crate::cluster::{Hierarchy, NodeKind};
+use crate::math::{FacetId, NodeId};
+use glam::DVec3;
+
+/// An energy in `C` channels.
+pub type Light<const C: usize> = [f64; C];
+
+/// What an owner's facets and patches have yet to shoot: read by every task, written between passes.
+#[derive(Clone, Debug, Default)]
+pub struct Shooter<const C: usize> {
+    /// Index of the first of a patch's four children; 0 for a leaf (0 is a facet, never a child).
+    pub children: Vec<u32>,
+    /// Unshot radiosity, area-weighted mean over the patch.
+    pub unshot: Vec<[f32; C]>,
+}
+
+/// What an owner's receivers gather: written by its own task alone.
+#[derive(Clone, Debug, Default)]
+pub struct Gatherer<const C: usize> {
+    /// The node of the cut.
+    pub root: NodeId,
+    /// First facet owned.
+    pub first_facet: u32,
+    /// Facets owned.
+    pub facet_count: u32,
+    /// As in [`Shooter::children`], with the patches made in this pass.
+    pub children: Vec<u32>,
+    /// Irradiance gathered in this pass by facets and patches at their own level.
+    pub gathered: Vec<Light<C>>,
+    /// Irradiance of all passes so far; of use at the leaves.
+    pub total: Vec<Light<C>>,
+    /// Irradiance vectors gathered in this pass by clusters, by place in the owner's depth-first
+    /// order of nodes; empty where the owner is one facet.
+    pub vectors: Vec<[DVec3; C]>,
+}
+
+impl<const C: usize> Gatherer<C> {
+    fn new(hierarchy: &Hierarchy, root: NodeId) -> Self {
+        let node = hierarchy.node(root);
+        let facets = node.facet_count as usize;
+        Self {
+            root,
+            first_facet: node.first_facet,
+            facet_count: node.facet_count,
+            children: vec![0; facets],
+            gathered: vec![[0.0; C]; facets],
+            total: vec![[0.0; C]; facets],
+            vectors: if facets > 1 {
+                vec![[DVec3::ZERO; C]; 2 * facets - 1]
+            } else {
+                Vec::new()
+            },
+        }
+    }
+
+    /// The patch at `path` of a facet, made with all above it if it is not there yet. New patches
+    /// start with their parent's irradiance of earlier passes.
+    pub fn patch(&mut self, facet: FacetId, path: PatchPath) -> usize {
+        let mut at = (facet.0 - self.first_facet) as usize;
+        for step in path.steps() {
+            if self.children[at] == 0 {
+                self.children[at] = u32::try_from(self.children.len())
+                    .expect("an owner has fewer than 2^32 patches");
+                let inherited = self.total[at];
+                for _ in 0..4 {
+                    self.children.push(0);
+                    self.gathered.push([0.0; C]);
+                    self.total.push(inherited);
+                }
+            }
+            at = (self.children[at] + step) as usize;
+        }
+        at
+    }
+}
+
+/// All the light of a solve.
+#[derive(Clone, Debug)]
+pub struct Radiosity<const C: usize> {
+    /// One a node of the cut, in facet order.
+    pub shooters: Vec<Shooter<C>>,
+    /// Parallel to `shooters`.
+    pub gatherers: Vec<Gatherer<C>>,
+    /// Unshot radiosity of every node, area-weighted mean.
+    pub node_unshot: Vec<[f32; C]>,
+    /// The owner of each facet.
+    pub owner_of_facet: Vec<u32>,
+    /// The first facet of each owner.
+    pub first_facets: Vec<u32>,
+}
+
+impl<const C: usize> Radiosity<C> {
+    /// Nothing shot yet: `emitted` gives each facet's emitted radiosity.
+    pub fn new(hierarchy: &Hierarchy, emitted: impl Fn(FacetId) -> Light<C>) -> Self {
+        let cut = owner_cut(hierarchy);
+        let mut owner_of_facet = vec![0u32; hierarchy.facets.len()];
+        let mut shooters = Vec::with_capacity(cut.len());
+        let mut gatherers = Vec::with_capacity(cut.len());
+        for (owner, &root) in cut.iter().enumerate() {
+            let range = hierarchy.facet_range(root);
+            owner_of_facet[range.clone()].fill(owner as u32);
+            shooters.push(Shooter {
+                children: vec![0; range.len()],
+                unshot: range
+                    .map(|f| emitted(FacetId::new(f)).map(|x| x as f32))
+                    .collect(),
+            });
+            gatherers.push(Gatherer::new(hierarchy, root));
+        }
+        let mut light = Self {
+            shooters,
+            gatherers,
+            node_unshot: vec![[0.0; C]; hierarchy.nodes.len()],
+            owner_of_facet,
+            first_facets: cut
+                .iter()
+                .map(|&root| hierarchy.node(root).first_facet)
+                .collect(),
+        };
+        light.pull_nodes(hierarchy);
+        light
+    }
+
+    /// Unshot radiosity of a facet.
+    pub fn facet_unshot(&self, facet: FacetId) -> [f32; C] {
+        let owner = self.owner_of_facet[facet.index()] as usize;
+        let local = facet.0 - self.first_facets[owner];
+        self.shooters[owner].unshot[local as usize]
+    }
+
+    /// Averages the facets' unshot radiosity up the hierarchy (paper: pull). Children stand behind
+    /// their parents, so one walk from the back serves.
+    pub fn pull_nodes(&mut self, hierarchy: &Hierarchy) {
+        for index in (0..hierarchy.nodes.len()).rev() {
+            let node = &hierarchy.nodes[index];
+            self.node_unshot[index] = if node.kind == NodeKind::Facet {
+                self.facet_unshot(FacetId(node.first_facet))
+            } else {
+                let (a, b) = (node.first_child as usize, node.first_child as usize + 1);
+                let (area_a, area_b) = (
+                    f64::from(hierarchy.shapes[a].area),
+                    f64::from(hierarchy.shapes[b].area),
+                );
+                std::array::from_fn(|c| {
+                    ((f64::from(self.node_unshot[a][c]) * area_a
+                        + f64::from(self.node_unshot[b][c]) * area_b)
+                        / (area_a + area_b)) as f32
+                })
+            };
+        }
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        let per_patch = 2 * size_of::<u32>() + size_of::<[f32; C]>() + 2 * size_of::<Light<C>>();
+        self.gatherers
+            .iter()
+            .map(|g| g.children.len() * per_patch + g.vectors.len() * size_of::<[DVec3; C]>())
+            .sum::<usize>()
+            + self.node_unshot.len() * size_of::<[f32; C]>()
+    }
+}

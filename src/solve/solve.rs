@@ -1,0 +1,462 @@
+//! A solve: passes until the light is spent.
+
+use super::config::{Normalise, SolveConfig, Stop};
+use super::error::SolveError;
+use super::ledger::{Escape, RadiatingPatch, absorbed_power, escape};
+use super::observer::Observer;
+use super::pass::{SolveContext, run_pass};
+use super::push_pull::{FacetProperties, gathered_power, push_pull, sum_leaves};
+use super::radiosity::{Light, Radiosity};
+use super::solution::{PatchPath, Solution, SolvedPatch};
+use super::statistics::{PassStatistics, PowerLedger};
+use crate::cluster::Hierarchy;
+use crate::embree::CommittedScene;
+use crate::math::FacetId;
+use crate::scene::Scene;
+use glam::Vec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::time::Instant;
+
+/// A finished solve.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The leaf patches with their light.
+    pub solution: Solution,
+    /// One a pass.
+    pub passes: Vec<PassStatistics>,
+    /// Where the power went.
+    pub power: PowerLedger,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Channels that were carried: 1 or 3.
+    pub channels: usize,
+    /// Leaf patches.
+    pub leaves: usize,
+    /// Bytes of the light at the end.
+    pub bytes: usize,
+    /// Whether passes were scaled to conserve power (row normalisation), and the scales.
+    pub normalised: Option<Vec<f64>>,
+}
+
+/// Solves a scene. `hierarchy` and `embree` are built from the same scene.
+///
+/// # Errors
+/// A setting out of range, or an interruption by the observer.
+pub fn solve(
+    scene: &Scene,
+    hierarchy: &Hierarchy,
+    embree: &CommittedScene,
+    config: &SolveConfig,
+    observer: &dyn Observer,
+) -> Result<Solved, SolveError> {
+    config.validate()?;
+    match scene.channels() {
+        1 => Solver::<1>::new(scene, hierarchy, embree, config, observer).run(),
+        _ => Solver::<3>::new(scene, hierarchy, embree, config, observer).run(),
+    }
+}
+
+/// Facet data that a solve looks up all the time, in the hierarchy's facet order.
+#[derive(Clone, Debug)]
+pub struct FacetTable<const C: usize> {
+    /// Unit normals.
+    pub normals: Vec<Vec3>,
+    /// Areas, normalised.
+    pub areas: Vec<f64>,
+    /// Sums of the areas before each facet; one longer.
+    pub area_before: Vec<f64>,
+    /// Reflectances.
+    pub reflectance: Vec<Light<C>>,
+    /// Emitted radiosity pi Ke over [`Self::unit`].
+    pub emitted: Vec<Light<C>>,
+    /// Radiosity in W/m2 that the solve counts as 1: a power of two near the greatest emission, so
+    /// that any Ke is solved with the same bits.
+    pub unit: f64,
+    /// Area of the scene, one side of each polygon.
+    pub polygon_area: f64,
+}
+
+impl<const C: usize> FacetTable<C> {
+    /// Looks everything up once.
+    pub fn new(scene: &Scene, hierarchy: &Hierarchy) -> Self {
+        let greatest = scene
+            .surfaces
+            .iter()
+            .flat_map(|s| s.emission)
+            .fold(0.0f64, f64::max);
+        let unit = if greatest > 0.0 {
+            greatest.log2().floor().exp2()
+        } else {
+            1.0
+        };
+        let mut table = Self {
+            normals: Vec::with_capacity(hierarchy.facets.len()),
+            areas: Vec::with_capacity(hierarchy.facets.len()),
+            area_before: vec![0.0],
+            reflectance: Vec::with_capacity(hierarchy.facets.len()),
+            emitted: Vec::with_capacity(hierarchy.facets.len()),
+            unit,
+            polygon_area: (0..scene.polygons.len())
+                .map(|p| scene.polygon_area(crate::math::PolygonId::new(p)))
+                .sum(),
+        };
+        let mut sum = 0.0;
+        for &facet in &hierarchy.facets {
+            let [a, b, c] = scene.facet_corners(facet).map(Vec3::as_dvec3);
+            let cross = (b - a).cross(c - a);
+            let area = 0.5 * cross.length();
+            sum += area;
+            table.normals.push(cross.normalize_or_zero().as_vec3());
+            table.areas.push(area);
+            table.area_before.push(sum);
+            let reflectance = scene.surface(facet.polygon).reflectance;
+            let emission = scene.emission(facet);
+            table.reflectance.push(std::array::from_fn(|k| reflectance[k]));
+            table
+                .emitted
+                .push(std::array::from_fn(|k| PI * (emission[k] / unit)));
+        }
+        table
+    }
+
+    /// Area of a facet.
+    pub fn area(&self, facet: FacetId) -> f64 {
+        self.areas[facet.index()]
+    }
+}
+
+/// A solve under way. Public to the experiments, which run single passes from given states.
+pub struct Solver<'a, const C: usize> {
+    scene: &'a Scene,
+    hierarchy: &'a Hierarchy,
+    embree: &'a CommittedScene,
+    config: &'a SolveConfig,
+    observer: &'a dyn Observer,
+    table: FacetTable<C>,
+    /// Emitted power of each channel, in units of the table's radiosity times normalised area.
+    emitted: Light<C>,
+    light: Radiosity<C>,
+}
+
+impl<'a, const C: usize> Solver<'a, C> {
+    /// Prepares a solve.
+    pub fn new(
+        scene: &'a Scene,
+        hierarchy: &'a Hierarchy,
+        embree: &'a CommittedScene,
+        config: &'a SolveConfig,
+        observer: &'a dyn Observer,
+    ) -> Self {
+        let table = FacetTable::<C>::new(scene, hierarchy);
+        let light = Radiosity::new(hierarchy, |f| table.emitted[f.index()]);
+        let mut emitted = [0.0; C];
+        for (power, area) in table.emitted.iter().zip(&table.areas) {
+            for c in 0..C {
+                emitted[c] += power[c] * area;
+            }
+        }
+        Self {
+            scene,
+            hierarchy,
+            embree,
+            config,
+            observer,
+            table,
+            emitted,
+            light,
+        }
+    }
+
+    fn run(mut self) -> Result<Solved, SolveError> {
+        let mut passes = Vec::new();
+        let mut warnings = Vec::new();
+        let mut dropped = 0.0;
+        let mut scales = Vec::new();
+        let emitted = mean(&self.emitted);
+        let normalise = self.normalises();
+        let mut unshot = emitted;
+        loop {
+            let pass = passes.len() as u32 + 1;
+            let (mut statistics, drop, scale) = self.pass(pass, normalise)?;
+            dropped += drop;
+            scales.push(scale);
+            unshot = self.unshot_power();
+            statistics.unshot = self.to_watts(unshot);
+            let fraction = if emitted > 0.0 { unshot / emitted } else { 0.0 };
+            self.observer.pass_done(&statistics, fraction);
+            passes.push(statistics);
+            let done = match self.config.stop {
+                Stop::Passes(n) => pass >= n || unshot == 0.0,
+                Stop::Converged(x) => fraction < x,
+            };
+            if done {
+                break;
+            }
+            if pass >= SolveConfig::MAX_PASSES {
+                warnings.push(self.not_converged(&passes, fraction));
+                break;
+            }
+        }
+        let power = self.ledger(unshot + self.dropped_mean(dropped));
+        let solution = self.solution();
+        Ok(Solved {
+            leaves: solution.patches.len(),
+            solution,
+            passes,
+            power,
+            warnings,
+            channels: C,
+            bytes: self.light.bytes(),
+            normalised: normalise.then_some(scales),
+        })
+    }
+
+    /// Runs one pass and pushes its light: counts, power dropped, and the normalising scale.
+    fn pass(&mut self, pass: u32, normalise: bool) -> Result<(PassStatistics, f64, f64), SolveError> {
+        let start = Instant::now();
+        let context = SolveContext {
+            scene: self.scene,
+            hierarchy: self.hierarchy,
+            embree: self.embree,
+            normals: &self.table.normals,
+            area_before: &self.table.area_before,
+            polygon_area: self.table.polygon_area,
+            tau: self.scene.tau(),
+            observer: self.observer,
+        };
+        let shot = self.unshot_power();
+        let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
+        let outcome = run_pass(context, self.config, &mut self.light, pass, greatest);
+        if outcome.interrupted {
+            return Err(SolveError::Interrupted {
+                pass,
+                completed: pass - 1,
+            });
+        }
+        let scale = if normalise {
+            let arrived = self.gathered_power();
+            if arrived > 0.0 { shot / arrived } else { 1.0 }
+        } else {
+            1.0
+        };
+        self.push(scale);
+        self.light.pull_nodes(self.hierarchy);
+        let mut statistics = outcome.statistics;
+        statistics.seconds = start.elapsed().as_secs_f64();
+        Ok((statistics, outcome.dropped, scale))
+    }
+
+    /// Dropped power is bounded in the greatest channel; the ledger is a mean of the channels.
+    fn dropped_mean(&self, dropped: f64) -> f64 {
+        let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
+        if greatest > 0.0 {
+            dropped * mean(&self.emitted) / greatest
+        } else {
+            0.0
+        }
+    }
+
+    /// Mean of the channels of the power that has yet to be shot.
+    fn unshot_power(&self) -> f64 {
+        self.light
+            .gatherers
+            .par_iter()
+            .zip(&self.light.shooters)
+            .map(|(gatherer, shooter)| {
+                let mut sum = 0.0;
+                sum_leaves(gatherer, |f| self.table.area(f), |_, at, area| {
+                    sum += area * mean(&shooter.unshot[at].map(f64::from));
+                });
+                sum
+            })
+            .collect::<Vec<f64>>()
+            .iter()
+            .sum()
+    }
+
+    /// Mean of the channels of the power that this pass brought, before it is pushed.
+    fn gathered_power(&self) -> f64 {
+        self.light
+            .gatherers
+            .par_iter()
+            .map(|gatherer| mean(&gathered_power(self.hierarchy, gatherer, |f| self.table.area(f))))
+            .collect::<Vec<f64>>()
+            .iter()
+            .sum()
+    }
+
+    fn push(&mut self, scale: f64) {
+        let properties = FacetProperties {
+            reflectance: &self.table.reflectance,
+            normals: &self.table.normals,
+        };
+        let hierarchy = self.hierarchy;
+        self.light
+            .gatherers
+            .par_iter_mut()
+            .zip(&mut self.light.shooters)
+            .for_each(|(gatherer, shooter)| {
+                push_pull(hierarchy, &properties, gatherer, shooter, scale);
+            });
+    }
+
+    /// Row normalisation is on: asked for, or a bright closed scene.
+    fn normalises(&self) -> bool {
+        let bright = self
+            .table
+            .reflectance
+            .iter()
+            .flatten()
+            .any(|&r| r >= SolveConfig::NORMALISE_FROM);
+        match self.config.normalise {
+            Normalise::Off => false,
+            Normalise::On => self.is_closed(),
+            Normalise::Auto => bright && self.is_closed(),
+        }
+    }
+
+    /// True when no probe ray from any facet leaves the scene or ends on a back without a side.
+    fn is_closed(&self) -> bool {
+        let weights: Vec<RadiatingPatch> = (0..self.hierarchy.facets.len())
+            .map(|f| RadiatingPatch {
+                facet: FacetId::new(f),
+                path: PatchPath::ROOT,
+                power: self.table.areas[f],
+            })
+            .collect();
+        let lost = escape(self.scene, self.hierarchy, self.embree, &self.table.normals, &weights, self.config.seed);
+        lost.escaped == 0.0 && lost.swallowed == 0.0
+    }
+
+    /// Calls `visit` for every leaf patch in facet order, depth first.
+    fn for_each_leaf(&self, mut visit: impl FnMut(FacetId, PatchPath, f64, usize, usize)) {
+        for (owner, gatherer) in self.light.gatherers.iter().enumerate() {
+            for local in 0..gatherer.facet_count {
+                let facet = FacetId(gatherer.first_facet + local);
+                let mut stack = vec![(local as usize, PatchPath::ROOT, self.table.area(facet))];
+                while let Some((at, path, area)) = stack.pop() {
+                    match gatherer.children[at] as usize {
+                        0 => visit(facet, path, area, owner, at),
+                        first => stack.extend(
+                            (0..4)
+                                .rev()
+                                .map(|k| (first + k, path.child(k as u32), area * 0.25)),
+                        ),
+                    }
+                }
+            }
+        }
+    }
+
+    /// Radiosity of a leaf, emission included, in the solve's unit.
+    fn leaf_radiosity(&self, facet: FacetId, irradiance: &Light<C>) -> Light<C> {
+        let i = facet.index();
+        std::array::from_fn(|c| self.table.emitted[i][c] + self.table.reflectance[i][c] * irradiance[c])
+    }
+
+    fn ledger(&self, unshot: f64) -> PowerLedger {
+        let mut absorbed = 0.0;
+        let mut radiating = Vec::new();
+        self.for_each_leaf(|facet, path, area, owner, at| {
+            let irradiance = &self.light.gatherers[owner].total[at];
+            absorbed += absorbed_power(&self.table.reflectance[facet.index()], irradiance) * area;
+            // What has been shot: the whole radiosity less what has yet to be.
+            let left = self.light.shooters[owner].unshot[at].map(f64::from);
+            let shot = mean(&self.leaf_radiosity(facet, irradiance)) - mean(&left);
+            if shot > 0.0 {
+                radiating.push(RadiatingPatch {
+                    facet,
+                    path,
+                    power: shot * area,
+                });
+            }
+        });
+        let lost: Escape = escape(
+            self.scene,
+            self.hierarchy,
+            self.embree,
+            &self.table.normals,
+            &radiating,
+            self.config.seed,
+        );
+        let emitted = mean(&self.emitted);
+        let absorbed = absorbed + lost.swallowed;
+        let imbalance = if emitted > 0.0 {
+            (emitted - absorbed - lost.escaped - unshot) / emitted
+        } else {
+            0.0
+        };
+        PowerLedger {
+            emitted: self.to_watts(emitted),
+            absorbed: self.to_watts(absorbed),
+            escaped: self.to_watts(lost.escaped),
+            escaped_stderr: self.to_watts(lost.escaped_stderr),
+            unshot: self.to_watts(unshot),
+            imbalance,
+        }
+    }
+
+    fn solution(&self) -> Solution {
+        let mut solution = Solution {
+            facets: self.hierarchy.facets.clone(),
+            patches: Vec::new(),
+            first_patch: Vec::with_capacity(self.hierarchy.facets.len() + 1),
+        };
+        self.for_each_leaf(|facet, path, _, owner, at| {
+            while solution.first_patch.len() <= facet.index() {
+                solution.first_patch.push(solution.patches.len() as u32);
+            }
+            let irradiance = &self.light.gatherers[owner].total[at];
+            let radiosity = self.leaf_radiosity(facet, irradiance);
+            solution.patches.push(SolvedPatch {
+                path,
+                radiosity: self.to_rgb(&radiosity),
+                irradiance: self.to_rgb(irradiance),
+            });
+        });
+        solution.first_patch.push(solution.patches.len() as u32);
+        solution
+    }
+
+    /// A light of the solve as red, green and blue in W/m2.
+    fn to_rgb(&self, light: &Light<C>) -> [f32; 3] {
+        std::array::from_fn(|k| (light[k.min(C - 1)] * self.table.unit) as f32)
+    }
+
+    /// A power of the solve in W.
+    fn to_watts(&self, power: f64) -> f64 {
+        self.scene.normalisation.area_to_file(power) * self.table.unit
+    }
+
+    fn not_converged(&self, passes: &[PassStatistics], fraction: f64) -> String {
+        let ratio = match passes {
+            [.., a, b] if a.unshot > 0.0 => b.unshot / a.unshot,
+            _ => 1.0,
+        };
+        let asked = match self.config.stop {
+            Stop::Converged(x) => x,
+            Stop::Passes(_) => fraction,
+        };
+        if ratio < 1.0 {
+            let more = ((asked / fraction).ln() / ratio.ln()).ceil();
+            format!(
+                "stopped after {} passes with {:.3e} of the emitted power unshot; about {} more passes would be needed to reach {asked:e}",
+                passes.len(),
+                fraction,
+                more
+            )
+        } else {
+            format!(
+                "stopped after {} passes with {:.3e} of the emitted power unshot, which no longer falls",
+                passes.len(),
+                fraction
+            )
+        }
+    }
+}
+
+/// Mean of the channels.
+fn mean<const C: usize>(light: &Light<C>) -> f64 {
+    light.iter().sum::<f64>() / C as f64
+}
