@@ -4,11 +4,20 @@
 //! Radiosity" (2000). The modules stand in the order of the data flow: a module imports only
 //! modules listed above it.
 
-pub mod cluster;
-pub mod embree;
 pub mod math;
-pub mod occluder;
-pub mod output;
+
+pub mod embree;
+
 pub mod scene;
-pub mod solve;
+
+pub mod cluster;
+
+pub mod occluder;
+
 pub mod visibility;
+
+pub mod solve;
+
+pub mod output;
+
+pub mod cli;

@@ -257,3 +257,143 @@ pub fn form_factor_bound(source: &Element, receiver: &Element) -> f32 {
     let ratio = receiver.radius / distance;
     (ratio * ratio).min(1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Irradiance of a unit-radiosity rectangle `corners` (counter-clockwise seen from the light's
+    /// side) on a point.
+    fn rectangle(corners: [Vec3; 4], point: Vec3, normal: Vec3) -> f32 {
+        let [a, b, c, d] = corners;
+        [[a, b, c], [a, c, d]]
+            .into_iter()
+            .map(|t| {
+                let cross = (t[1] - t[0]).cross(t[2] - t[0]);
+                let k = triangle_vector(
+                    t,
+                    cross.normalize(),
+                    0.5 * cross.length(),
+                    point,
+                    Some(normal),
+                );
+                normal.dot(k)
+            })
+            .sum()
+    }
+
+    /// Point to a parallel rectangle a x b at distance c, one corner on the point's normal.
+    fn parallel(a: f64, b: f64, c: f64) -> f64 {
+        let (a, b) = (a / c, b / c);
+        let (ra, rb) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());
+        (a / ra * (b / ra).atan() + b / rb * (a / rb).atan()) / (2.0 * std::f64::consts::PI)
+    }
+
+    /// Point to a perpendicular rectangle of width a and height b, its lower corner at distance c.
+    fn perpendicular(a: f64, b: f64, c: f64) -> f64 {
+        let r = (b * b + c * c).sqrt();
+        ((a / c).atan() - c / r * (a / r).atan()) / (2.0 * std::f64::consts::PI)
+    }
+
+    fn above(a: f32, b: f32, c: f32) -> [Vec3; 4] {
+        [
+            Vec3::new(0.0, 0.0, c),
+            Vec3::new(0.0, b, c),
+            Vec3::new(a, b, c),
+            Vec3::new(a, 0.0, c),
+        ]
+    }
+
+    #[test]
+    fn parallel_rectangle_matches_its_closed_form_at_any_distance() {
+        // From contact to the far rules: relative error of each against the closed form.
+        for c in [0.01f32, 0.1, 0.5, 1.0, 3.0, 6.0, 9.0, 15.0, 25.0, 45.0, 100.0] {
+            for (a, b) in [(1.0f32, 1.0), (0.5, 2.0)] {
+                let got = rectangle(above(a, b, c), Vec3::ZERO, Vec3::Z);
+                let want = parallel(f64::from(a), f64::from(b), f64::from(c));
+                let error = (f64::from(got) - want).abs() / want;
+                assert!(error < 1.0e-3, "a {a} b {b} c {c}: {got} for {want}");
+            }
+        }
+    }
+
+    #[test]
+    fn perpendicular_rectangle_matches_its_closed_form() {
+        for c in [0.01f32, 0.1, 1.0, 5.0] {
+            let corners = [
+                Vec3::new(c, 0.0, 0.0),
+                Vec3::new(c, 1.0, 0.0),
+                Vec3::new(c, 1.0, 1.0),
+                Vec3::new(c, 0.0, 1.0),
+            ]
+            .map(|v| Vec3::new(v.x, v.y, v.z));
+            // Seen from -x: counter-clockwise is y then z reversed.
+            let corners = [corners[0], corners[3], corners[2], corners[1]];
+            let got = rectangle(corners, Vec3::ZERO, Vec3::Z);
+            let want = perpendicular(1.0, 1.0, f64::from(c));
+            assert!(
+                (f64::from(got) - want).abs() < 1.0e-4 * want.max(0.01),
+                "c {c}: {got} for {want}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_rectangle_below_the_horizon_gives_nothing_and_one_across_it_half() {
+        let below = above(1.0, 1.0, -1.0);
+        let flipped = [below[0], below[3], below[2], below[1]];
+        assert_eq!(rectangle(flipped, Vec3::ZERO, Vec3::Z), 0.0);
+        // A wall at x = 1 from z = -1 to 1 gives what its upper half gives.
+        let wall = |low: f32| {
+            [
+                Vec3::new(1.0, 0.0, low),
+                Vec3::new(1.0, 0.0, 1.0),
+                Vec3::new(1.0, 1.0, 1.0),
+                Vec3::new(1.0, 1.0, low),
+            ]
+        };
+        let (whole, half) = (
+            rectangle(wall(-1.0), Vec3::ZERO, Vec3::Z),
+            rectangle(wall(0.0), Vec3::ZERO, Vec3::Z),
+        );
+        assert!(half > 0.05);
+        assert!((whole - half).abs() < 1.0e-6, "{whole} for {half}");
+    }
+
+    #[test]
+    fn the_back_of_a_source_is_dark() {
+        let [a, b, c, d] = above(1.0, 1.0, 1.0);
+        assert_eq!(rectangle([d, c, b, a], Vec3::ZERO, Vec3::Z), 0.0);
+    }
+
+    #[test]
+    fn the_six_walls_of_a_cube_fill_every_points_sky() {
+        // Closure: the irradiance vectors of a closed convex room, with unit radiosity, sum to 1
+        // about any normal.
+        let lo = Vec3::splat(-0.5);
+        let hi = Vec3::splat(0.5);
+        let mut walls = Vec::new();
+        for axis in 0..3 {
+            for (sign, at) in [(1.0f32, lo[axis]), (-1.0, hi[axis])] {
+                let mut u = Vec3::ZERO;
+                let mut v = Vec3::ZERO;
+                u[(axis + 1) % 3] = 1.0;
+                v[(axis + 2) % 3] = sign;
+                let mut corner = lo;
+                corner[axis] = at;
+                if sign < 0.0 {
+                    corner[(axis + 2) % 3] = hi[(axis + 2) % 3];
+                }
+                walls.push([corner, corner + u, corner + u + v, corner + v]);
+            }
+        }
+        for (point, normal) in [
+            (Vec3::new(0.1, -0.2, 0.3), Vec3::new(0.3, 0.5, -0.8).normalize()),
+            (Vec3::new(-0.499, 0.499, -0.499), Vec3::Z),
+            (Vec3::new(0.0, 0.45, 0.2), Vec3::new(-1.0, 0.02, 0.1).normalize()),
+        ] {
+            let sum: f32 = walls.iter().map(|&w| rectangle(w, point, normal)).sum();
+            assert!((sum - 1.0).abs() < 1.0e-5, "{point} {normal}: {sum}");
+        }
+    }
+}

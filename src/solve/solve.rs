@@ -175,13 +175,12 @@ impl<'a, const C: usize> Solver<'a, C> {
         let mut scales = Vec::new();
         let emitted = mean(&self.emitted);
         let normalise = self.normalises();
-        let mut unshot = emitted;
-        loop {
+        let unshot = loop {
             let pass = passes.len() as u32 + 1;
             let (mut statistics, drop, scale) = self.pass(pass, normalise)?;
             dropped += drop;
             scales.push(scale);
-            unshot = self.unshot_power();
+            let unshot = self.unshot_power();
             statistics.unshot = self.to_watts(unshot);
             let fraction = if emitted > 0.0 { unshot / emitted } else { 0.0 };
             self.observer.pass_done(&statistics, fraction);
@@ -191,13 +190,13 @@ impl<'a, const C: usize> Solver<'a, C> {
                 Stop::Converged(x) => fraction < x,
             };
             if done {
-                break;
+                break unshot;
             }
             if pass >= SolveConfig::MAX_PASSES {
                 warnings.push(self.not_converged(&passes, fraction));
-                break;
+                break unshot;
             }
-        }
+        };
         let power = self.ledger(unshot + self.dropped_mean(dropped));
         let solution = self.solution();
         Ok(Solved {

@@ -1,0 +1,64 @@
+//! Everything that can go wrong on the command line, and its exit code.
+
+use crate::embree::EmbreeError;
+use crate::output::OutputError;
+use crate::scene::LoadError;
+use crate::scene::generate::UnknownScene;
+use crate::solve::{ConfigError, SolveError};
+
+/// An error of a command.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CliError {
+    /// The arguments are wrong, or help was asked for.
+    #[error(transparent)]
+    Arguments(#[from] clap::Error),
+    /// The scene is invalid.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// No such built-in scene.
+    #[error(transparent)]
+    UnknownScene(#[from] UnknownScene),
+    /// A setting is out of range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The solve ended without a result.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// Embree failed.
+    #[error(transparent)]
+    Embree(#[from] EmbreeError),
+    /// A file could not be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The system refused something.
+    #[error("{0}")]
+    System(String),
+}
+
+impl CliError {
+    /// 2 for wrong arguments or input, 130 for an interruption, 3 for anything else.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Arguments(error) => u8::try_from(error.exit_code()).unwrap_or(2),
+            Self::Load(_)
+            | Self::UnknownScene(_)
+            | Self::Config(_)
+            | Self::Solve(SolveError::Config(_)) => 2,
+            Self::Solve(SolveError::Interrupted { .. })
+            | Self::Output(OutputError::Interrupted { .. }) => 130,
+            Self::Solve(_) | Self::Embree(_) | Self::Output(_) | Self::System(_) => 3,
+        }
+    }
+
+    /// Says what went wrong: help and versions on standard output, errors on standard error.
+    pub fn report(&self) {
+        match self {
+            Self::Arguments(error) => {
+                // A closed pipe is no reason to fail while failing.
+                let _ = error.print();
+            }
+            other => eprintln!("certilux: {other}"),
+        }
+    }
+}

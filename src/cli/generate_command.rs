@@ -1,0 +1,31 @@
+//! `certilux generate`: built-in scenes as files.
+
+use super::args::GenerateCommand;
+use super::error::CliError;
+use super::run::Session;
+use crate::output::{OutputError, write_atomically};
+use crate::scene::generate::{catalogue, generate};
+use std::io::Write;
+
+/// Lists the scenes, or writes one as DIR/NAME.obj and DIR/NAME.mtl.
+pub fn run(session: &Session, command: &GenerateCommand) -> Result<(), CliError> {
+    let (Some(name), Some(out)) = (&command.name, &command.out) else {
+        for entry in catalogue() {
+            println!("{:<24} {}", entry.name, entry.description);
+        }
+        return Ok(());
+    };
+    let scene = generate(name)?;
+    std::fs::create_dir_all(out).map_err(|e| OutputError::io("make the folder", out, e))?;
+    for (extension, text) in [("mtl", &scene.mtl), ("obj", &scene.obj)] {
+        let path = out.join(format!("{}.{extension}", scene.name));
+        write_atomically(&path, &session.interrupted, |w| {
+            w.write_all(text.as_bytes())
+                .map_err(|e| OutputError::io("write", &path, e))
+        })?;
+        if !session.quiet {
+            println!("{}", path.display());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,40 @@
+//! Chooses the command.
+
+use super::args::{Cli, Command};
+use super::error::CliError;
+use super::{generate_command, interrupt, solve_command};
+use clap::Parser;
+use std::ffi::OsString;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// What every command is given beside its own arguments.
+pub struct Session {
+    /// No progress, no summary.
+    pub quiet: bool,
+    /// The words of the command line, for the records.
+    pub words: Vec<String>,
+    /// Raised by Ctrl-C.
+    pub interrupted: Arc<AtomicBool>,
+}
+
+/// Runs the program on its arguments, the program's name first.
+///
+/// # Errors
+/// Whatever the command meets; see [`CliError::exit_code`].
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError> {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let cli = Cli::try_parse_from(&arguments)?;
+    let rest = arguments.iter().skip(1);
+    let session = Session {
+        quiet: cli.quiet,
+        words: std::iter::once("certilux".to_owned())
+            .chain(rest.map(|a| a.to_string_lossy().into_owned()))
+            .collect(),
+        interrupted: interrupt::install()?,
+    };
+    match cli.command {
+        Command::Solve(command) => solve_command::run(&session, &command),
+        Command::Generate(command) => generate_command::run(&session, &command),
+    }
+}

@@ -1,0 +1,21 @@
+//! Where a scene comes from: an OBJ file, or `builtin:NAME`.
+
+use super::error::CliError;
+use crate::scene::generate::generate;
+use crate::scene::{LoadConfig, Scene, load_file, load_text};
+use std::path::Path;
+
+/// What stands before the name of a built-in scene.
+const BUILTIN: &str = "builtin:";
+
+/// Loads the scene that the command line names.
+pub fn load_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> {
+    match source.strip_prefix(BUILTIN) {
+        None => Ok(load_file(Path::new(source), config)?),
+        Some(name) => {
+            let scene = generate(name)?;
+            let library = format!("{}.mtl", scene.name);
+            Ok(load_text(source, &scene.obj, &[(&library, &scene.mtl)], config)?)
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! `certilux solve`: OBJ in; solution, picture and numbers out.
+
+use super::args::SolveCommand;
+use super::error::CliError;
+use super::progress::Progress;
+use super::run::Session;
+use super::scene_source::load_scene;
+use super::summary::print_summary;
+use crate::embree::DeviceConfig;
+use crate::output::{
+    HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh, StatsFile, write_ply,
+};
+use crate::solve::{PreparedScene, SolveConfig, Solved, solve};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Solves a scene and writes the results.
+pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
+    let config = command.solve.config()?;
+    let out = &command.out;
+    // A folder that cannot be made is better known before the work than after.
+    std::fs::create_dir_all(out).map_err(|e| OutputError::io("make the folder", out, e))?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(command.scene.threads)
+        .stack_size(WORKER_STACK)
+        .build()
+        .map_err(|e| CliError::System(format!("cannot start threads: {e}")))?;
+    pool.install(|| solve_and_write(session, command, &config))
+}
+
+/// Stack of a worker: the walk recurses once a level of hierarchy and patches on both ends, about half
+/// a kilobyte each; a chain of clusters can be thousands deep.
+const WORKER_STACK: usize = 64 << 20;
+
+fn solve_and_write(
+    session: &Session,
+    command: &SolveCommand,
+    config: &SolveConfig,
+) -> Result<(), CliError> {
+    let start = Instant::now();
+    let scene = load_scene(&command.scene.scene, &command.scene.load_config())?;
+    let load = start.elapsed().as_secs_f64();
+    for warning in &scene.warnings {
+        eprintln!("certilux: warning: {}", warning.0);
+    }
+    let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
+    let prepared = PreparedScene::new(
+        scene,
+        command.scene.sides_mode(),
+        config.seed,
+        &DeviceConfig::default(),
+    )?;
+    let solving = Instant::now();
+    let solved = solve(
+        &prepared.scene,
+        &prepared.hierarchy,
+        &prepared.embree,
+        config,
+        &progress,
+    )?;
+    progress.finish();
+    let solve_seconds = solving.elapsed().as_secs_f64();
+    for warning in &solved.warnings {
+        eprintln!("certilux: warning: {warning}");
+    }
+    let writing = Instant::now();
+    let mut files = Vec::new();
+    let mut file = |name: &str| -> PathBuf {
+        let path = command.out.join(name);
+        files.push(path.clone());
+        path
+    };
+    let mesh = SolvedMesh::new(&prepared.scene, &solved.solution);
+    write_ply(&file("solution.ply"), &mesh, &session.interrupted)?;
+    let stats_path = file("stats.json");
+    let mut stats = stats_file(session, config, &prepared, &solved);
+    stats.seconds = SecondsBlock {
+        load,
+        cluster: prepared.seconds.cluster,
+        occluders: 0.0,
+        embree: prepared.seconds.embree,
+        solve: solve_seconds,
+        output: writing.elapsed().as_secs_f64(),
+    };
+    stats.write(&stats_path, &session.interrupted)?;
+    if !session.quiet {
+        print_summary(&stats, &files);
+    }
+    Ok(())
+}
+
+fn stats_file(
+    session: &Session,
+    config: &SolveConfig,
+    prepared: &PreparedScene,
+    solved: &Solved,
+) -> StatsFile {
+    let hierarchy = &prepared.hierarchy;
+    let count = |kind| hierarchy.nodes.iter().filter(|n| n.kind == kind).count();
+    let mut scene = SceneBlock::new(&prepared.scene);
+    scene.warnings.extend(solved.warnings.iter().cloned());
+    StatsFile {
+        format: StatsFile::FORMAT,
+        certilux: env!("CARGO_PKG_VERSION").to_owned(),
+        embree: prepared.embree_version.to_string(),
+        command: session.words.clone(),
+        seed: config.seed,
+        threads: rayon::current_num_threads(),
+        technique: config.technique.name().to_owned(),
+        epsilon: config.epsilon,
+        rays_per_exchange: config.rays,
+        scene,
+        hierarchy: HierarchyBlock {
+            face_clusters: count(crate::cluster::NodeKind::FaceCluster),
+            volume_clusters: count(crate::cluster::NodeKind::Volume),
+            occluders: 0,
+            leaves: solved.leaves,
+            bytes: hierarchy.bytes() + solved.bytes,
+        },
+        passes: solved.passes.clone(),
+        seconds: SecondsBlock::default(),
+        power: solved.power,
+    }
+}

@@ -1,0 +1,49 @@
+//! The few lines a person reads at the end of a solve.
+
+use crate::output::StatsFile;
+use std::path::PathBuf;
+
+/// Prints what was done, how sure it is, and which files hold it.
+pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
+    let power = &stats.power;
+    let share = |x: f64| {
+        if power.emitted > 0.0 {
+            100.0 * x / power.emitted
+        } else {
+            0.0
+        }
+    };
+    let exchanges: u64 = stats.passes.iter().map(|p| p.exchanges).sum();
+    let rays: u64 = stats.passes.iter().map(|p| p.rays).sum();
+    println!(
+        "{}: {} polygons, {} leaf patches, {} channel(s), Embree {}",
+        stats.scene.path,
+        stats.scene.polygons,
+        stats.hierarchy.leaves,
+        stats.scene.channels,
+        stats.embree
+    );
+    println!(
+        "{} pass(es), {exchanges} exchanges, {rays} rays, technique {}, {} thread(s)",
+        stats.passes.len(),
+        stats.technique,
+        stats.threads
+    );
+    println!(
+        "power: {:.4} W emitted = {:.2} % absorbed + {:.2} % escaped (+- {:.2}) + {:.3} % unshot; imbalance {:+.3} %",
+        power.emitted,
+        share(power.absorbed),
+        share(power.escaped),
+        share(power.escaped_stderr),
+        share(power.unshot),
+        100.0 * power.imbalance
+    );
+    let s = &stats.seconds;
+    println!(
+        "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, solve {:.2}, output {:.2}",
+        s.load, s.embree, s.cluster, s.solve, s.output
+    );
+    for file in files {
+        println!("wrote {}", file.display());
+    }
+}
