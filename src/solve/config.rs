@@ -39,6 +39,9 @@ pub struct SolveConfig {
     /// An exchange is refined until the power that it carries (greatest channel, unoccluded) is
     /// below this fraction of the scene's emitted power (the BFA threshold). Positive.
     pub epsilon: f64,
+    /// Irradiance that one exchange may leave unresolved on a receiver, over the mean irradiance
+    /// (emitted power / area). Positive.
+    pub gradient: f64,
     /// Visibility samples of an exchange, at least 1; whole packets of 8 are cheapest.
     pub rays: u32,
     /// When to stop.
@@ -105,6 +108,7 @@ impl Default for SolveConfig {
         Self {
             technique: Technique::Normal,
             epsilon: 1.0e-6,
+            gradient: 5.0e-3,
             rays: 8,
             stop: Stop::Converged(1.0e-3),
             min_area: 1.0e-6,

@@ -7,6 +7,7 @@
 //! serves every normal of a receiving cluster that has the source wholly in front.
 
 use super::element::{Element, Shape};
+use super::solution::split_triangle;
 use crate::cluster::Hierarchy;
 use crate::math::NodeId;
 use crate::scene::Scene;
@@ -141,13 +142,12 @@ fn cluster_vector(scene: &Scene, hierarchy: &Hierarchy, id: NodeId, point: Vec3,
         .sum()
 }
 
-/// Mean over the receiver of the irradiance from a unit-radiosity source, unoccluded: a scalar for
-/// triangles, a vector for clusters (to be dotted with each facet's normal).
+/// The irradiance from a unit-radiosity source over a receiver, unoccluded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
-    /// Irradiance of a planar receiver.
-    Scalar(f32),
-    /// Irradiance vector of a cluster.
+    /// On a triangle: the linear function that fits best, by its values at the three corners.
+    Linear([f32; 3]),
+    /// On a cluster: the mean irradiance vector, to be dotted with each facet's normal.
     Vector(Vec3),
 }
 
@@ -155,9 +155,123 @@ impl Arrival {
     /// True when nothing arrives.
     pub fn is_zero(&self) -> bool {
         match *self {
-            Self::Scalar(e) => e <= 0.0,
+            Self::Linear(e) => e == [0.0; 3],
             Self::Vector(v) => v == Vec3::ZERO,
         }
+    }
+}
+
+/// What arrives at `receiver` from `source` of unit radiosity, V = 1, and how far it strays from that
+/// linear function at the points where it was evaluated.
+///
+/// The number of receiver points grows towards contact, by the gap between the boxes over the
+/// receiver's radius: 1, 3, 12 or 48 points. Form factors at contact are thereby integrated and
+/// not guessed from the centres.
+pub fn arrival(
+    scene: &Scene,
+    hierarchy: &Hierarchy,
+    source: &Element,
+    receiver: &Element,
+) -> (Arrival, f32) {
+    let gap = source.bounds.distance(receiver.bounds);
+    match receiver.shape {
+        Shape::Triangle(corners) => {
+            let n = receiver.normal;
+            let at = |p: Vec3| {
+                n.dot(element_vector(scene, hierarchy, source, p, Some(n)))
+                    .max(0.0)
+            };
+            if gap > 10.0 * receiver.radius {
+                return (Arrival::Linear([at(receiver.centroid); 3]), 0.0);
+            }
+            let splits = if gap > 1.5 * receiver.radius {
+                0
+            } else if gap > 0.25 * receiver.radius {
+                1
+            } else {
+                2
+            };
+            let whole = [Vec3::X, Vec3::Y, Vec3::Z];
+            let mut samples = Samples::default();
+            samples.take(&at, corners, whole, splits);
+            let moments = samples.moments();
+            // Least squares over the linear functions: the mass matrix of a triangle is
+            // area/12 (I + 1 1^T), its inverse 12/area (I - 1 1^T / 4).
+            let mean = moments.x + moments.y + moments.z;
+            let fit = 12.0 * moments - Vec3::splat(3.0 * mean);
+            if mean <= 0.0 {
+                return (Arrival::Linear([0.0; 3]), 0.0);
+            }
+            let residual = if splits == 0 {
+                // Three points always lie on a linear function: ask a fourth.
+                (at(receiver.centroid) - mean).abs()
+            } else {
+                samples.residual(fit)
+            };
+            (Arrival::Linear(fit.to_array()), residual)
+        }
+        Shape::Cluster => {
+            // Levels below the cluster whose centroids are the points: one, or up to eight.
+            let levels = if gap > 10.0 * receiver.radius { 0 } else { 3 };
+            let sum = cluster_mean(scene, hierarchy, source, receiver.node, levels);
+            (Arrival::Vector(sum / receiver.area), 0.0)
+        }
+        Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
+    }
+}
+
+/// Irradiance at the points of a composite rule on a receiver: at most 16 parts of 3 points.
+struct Samples {
+    count: usize,
+    /// The receiver's barycentric coordinates of each point.
+    lambda: [Vec3; 48],
+    irradiance: [f32; 48],
+}
+
+impl Default for Samples {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            lambda: [Vec3::ZERO; 48],
+            irradiance: [0.0; 48],
+        }
+    }
+}
+
+impl Samples {
+    /// Evaluates the degree-2 rule on the 4^splits parts of a triangle; `lambda` holds the receiver's
+    /// barycentric coordinates of its corners.
+    fn take(
+        &mut self,
+        irradiance: &impl Fn(Vec3) -> f32,
+        corners: [Vec3; 3],
+        lambda: [Vec3; 3],
+        splits: u32,
+    ) {
+        if splits > 0 {
+            for k in 0..4 {
+                let (part, weights) = (split_triangle(corners, k), split_triangle(lambda, k));
+                self.take(irradiance, part, weights, splits - 1);
+            }
+            return;
+        }
+        for (point, weight) in three_points(corners).into_iter().zip(three_points(lambda)) {
+            self.lambda[self.count] = weight;
+            self.irradiance[self.count] = irradiance(point);
+            self.count += 1;
+        }
+    }
+
+    /// Means of irradiance times each barycentric coordinate.
+    fn moments(&self) -> Vec3 {
+        let points = self.lambda[..self.count].iter().zip(&self.irradiance);
+        points.map(|(&w, &e)| w * e).sum::<Vec3>() / self.count as f32
+    }
+
+    /// Greatest distance of a sample from the linear function with these corner values.
+    fn residual(&self, fit: Vec3) -> f32 {
+        let points = self.lambda[..self.count].iter().zip(&self.irradiance);
+        points.fold(0.0, |m, (&w, &e)| m.max((e - w.dot(fit)).abs()))
     }
 }
 
@@ -167,64 +281,24 @@ fn three_points([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
     [(g + a) * 0.5, (g + b) * 0.5, (g + c) * 0.5]
 }
 
-/// What arrives at `receiver` from `source` of unit radiosity, V = 1.
-///
-/// The number of receiver points grows towards contact, by the gap between the boxes over the
-/// receiver's radius: 1, 3, 12 or 48 points. Form factors at contact are thereby integrated and
-/// not guessed from the centres.
-pub fn arrival(scene: &Scene, hierarchy: &Hierarchy, source: &Element, receiver: &Element) -> Arrival {
-    let gap = source.bounds.distance(receiver.bounds);
-    match receiver.shape {
-        Shape::Triangle(corners) => {
-            let n = receiver.normal;
-            let at = |p: Vec3| {
-                n.dot(element_vector(scene, hierarchy, source, p, Some(n)))
-                    .max(0.0)
-            };
-            let rule = |t: [Vec3; 3]| three_points(t).into_iter().map(at).sum::<f32>() / 3.0;
-            let split = |t: [Vec3; 3]| -> [[Vec3; 3]; 4] {
-                std::array::from_fn(|k| super::solution::split_triangle(t, k as u32))
-            };
-            let e = if gap > 10.0 * receiver.radius {
-                at(receiver.centroid)
-            } else if gap > 1.5 * receiver.radius {
-                rule(corners)
-            } else if gap > 0.25 * receiver.radius {
-                split(corners).into_iter().map(rule).sum::<f32>() / 4.0
-            } else {
-                split(corners)
-                    .into_iter()
-                    .flat_map(split)
-                    .map(rule)
-                    .sum::<f32>()
-                    / 16.0
-            };
-            Arrival::Scalar(e)
+/// Area times mean irradiance vector of a receiving cluster, from the nodes `levels` below.
+fn cluster_mean(
+    scene: &Scene,
+    hierarchy: &Hierarchy,
+    source: &Element,
+    receiver: NodeId,
+    levels: u32,
+) -> Vec3 {
+    let shape = hierarchy.shape(receiver);
+    let at = |p: Vec3| element_vector(scene, hierarchy, source, p, None);
+    match hierarchy.children(receiver) {
+        _ if levels == 0 => at(shape.centroid) * shape.area,
+        None => {
+            let facet = hierarchy.facets[hierarchy.facet_of_leaf(receiver).index()];
+            let points = three_points(scene.facet_corners(facet));
+            points.into_iter().map(at).sum::<Vec3>() * (shape.area / 3.0)
         }
-        Shape::Cluster => {
-            // Levels below the cluster whose centroids are the points: 1, 4 or 16 of them.
-            let levels = if gap > 10.0 * receiver.radius {
-                0
-            } else if gap > receiver.radius {
-                2
-            } else {
-                4
-            };
-            let sum = cluster_mean(scene, hierarchy, source, receiver.node, levels);
-            Arrival::Vector(sum / receiver.area)
-        }
-        Shape::Volume => Arrival::Scalar(0.0),
-    }
-}
-
-/// Area times mean irradiance vector of a receiving cluster, from the centroids `levels` below.
-fn cluster_mean(scene: &Scene, hierarchy: &Hierarchy, source: &Element, receiver: NodeId, levels: u32) -> Vec3 {
-    match (levels, hierarchy.children(receiver)) {
-        (0, _) | (_, None) => {
-            let shape = hierarchy.shape(receiver);
-            element_vector(scene, hierarchy, source, shape.centroid, None) * shape.area
-        }
-        (_, Some(children)) => children
+        Some(children) => children
             .into_iter()
             .map(|child| cluster_mean(scene, hierarchy, source, child, levels - 1))
             .sum(),

@@ -3,6 +3,8 @@
 mod config;
 mod element;
 mod error;
+#[cfg(test)]
+mod fixture;
 mod form_factor;
 mod ledger;
 mod observer;
@@ -14,6 +16,8 @@ mod radiosity;
 mod solution;
 #[allow(clippy::module_inception, reason = "the solve of the solve stage")]
 mod solve;
+#[cfg(test)]
+mod solve_tests;
 mod statistics;
 
 pub use config::{ConfigError, Normalise, SolveConfig, Stop, Technique};

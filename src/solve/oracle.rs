@@ -27,6 +27,8 @@ pub enum Decision {
 pub struct Oracle {
     /// Power below which a pair exchanges.
     pub threshold: f64,
+    /// Irradiance of a receiver that an exchange may leave unresolved: beyond it the receiver is split.
+    pub irradiance_tolerance: f64,
     /// Least area of a patch, normalised.
     pub min_area: f32,
     /// Depth below a surface within which nothing counts, normalised.
@@ -36,6 +38,8 @@ pub struct Oracle {
 /// Cosine of the widest cone of normals that one irradiance vector may stand for: 20 degrees. Within it
 /// the vector is exact for the normals; what is lost is the spread of the positions.
 const CLUSTER_CONE_COS: f32 = 0.939_692_6;
+/// Gap, in radii of a cluster, from which it may stand as one: nearer, its outline matters.
+const CLUSTER_GAP: f32 = 2.0;
 /// Share of the threshold below which a pair with a non-exchanging end may be dropped (design,
 /// section 6): a thousand dropped pairs are worth one exchange.
 const DROP_SHARE: f64 = 1.0e-3;
@@ -78,6 +82,12 @@ impl Oracle {
         }
     }
 
+    /// True when an exchange would leave too coarse a light on its receiver: `residual` is how far the
+    /// irradiance per unit radiosity strays from the linear function that would be deposited.
+    pub fn refines_receiver(&self, receiver: &Element, radiosity: f64, residual: f32) -> bool {
+        radiosity * f64::from(residual) > self.irradiance_tolerance && self.can_split(receiver)
+    }
+
     /// One end holds the other, or both are the same.
     fn decide_overlapping(&self, source: &Element, receiver: &Element) -> Decision {
         let larger = if source.facet_count >= receiver.facet_count {
@@ -101,7 +111,9 @@ impl Oracle {
             Shape::Triangle(_) => true,
             Shape::Volume => false,
             Shape::Cluster => {
-                element.cone_cos >= CLUSTER_CONE_COS && element.faces_fully(other, self.tau)
+                element.cone_cos >= CLUSTER_CONE_COS
+                    && element.bounds.distance(other.bounds) > CLUSTER_GAP * element.radius
+                    && element.faces_fully(other, self.tau)
             }
         }
     }

@@ -102,6 +102,7 @@ pub fn run_pass<const C: usize>(
         first_facets,
         oracle: Oracle {
             threshold: config.epsilon * emitted,
+            irradiance_tolerance: config.gradient * emitted / context.polygon_area,
             min_area: (config.min_area * context.polygon_area) as f32,
             tau: context.tau,
         },
@@ -231,7 +232,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     self.split_receiver(source, receiver);
                 }
             }
-            Decision::Exchange => self.exchange(source, receiver),
+            Decision::Exchange => self.exchange(source, receiver, f64::from(greatest)),
             Decision::SplitSource => self.split_source(source, receiver),
             Decision::SplitReceiver => self.split_receiver(source, receiver),
         }
@@ -288,9 +289,9 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     }
 
     /// Transfers energy: radiosity x form factor x visibility.
-    fn exchange(&mut self, source: &Source, receiver: &Receiver) {
+    fn exchange(&mut self, source: &Source, receiver: &Receiver, greatest: f64) {
         let context = self.pass.context;
-        let unoccluded = arrival(
+        let (unoccluded, residual) = arrival(
             context.scene,
             context.hierarchy,
             &source.element,
@@ -298,6 +299,10 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         );
         if unoccluded.is_zero() {
             return;
+        }
+        let oracle = &self.pass.oracle;
+        if oracle.refines_receiver(&receiver.element, greatest, residual) {
+            return self.split_receiver(source, receiver);
         }
         self.outcome.statistics.exchanges += 1;
         let visibility = self.visibility(&source.element, &receiver.element);
@@ -341,11 +346,13 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
 
     fn deposit(&mut self, receiver: &Receiver, unoccluded: Arrival, light: [f64; C]) {
         match unoccluded {
-            Arrival::Scalar(irradiance) => {
+            Arrival::Linear(irradiance) => {
                 let element = &receiver.element;
                 let at = self.gatherer.patch(element.facet(), element.path);
-                for (sum, b) in self.gatherer.gathered[at].iter_mut().zip(light) {
-                    *sum += b * f64::from(irradiance);
+                for (corner, value) in self.gatherer.gathered[at].iter_mut().zip(irradiance) {
+                    for (sum, b) in corner.iter_mut().zip(light) {
+                        *sum += b * f64::from(value);
+                    }
                 }
             }
             Arrival::Vector(vector) => {

@@ -28,7 +28,7 @@ pub fn push_pull<const C: usize>(
     push_nodes(hierarchy, facets, gatherer);
     for facet in 0..gatherer.facet_count {
         let reflectance = facets.reflectance[(gatherer.first_facet + facet) as usize];
-        reflect(gatherer, shooter, facet as usize, [0.0; C], &reflectance, scale);
+        reflect(gatherer, shooter, facet as usize, [[0.0; C]; 3], &reflectance, scale);
     }
 }
 
@@ -53,7 +53,10 @@ fn push_nodes<const C: usize>(
             for c in 0..C {
                 // A cluster receives only what is in front of all its facets: the dot product is
                 // negative by rounding alone.
-                gathered[c] += normal.dot(sum[c]).max(0.0);
+                let irradiance = normal.dot(sum[c]).max(0.0);
+                for corner in gathered.iter_mut() {
+                    corner[c] += irradiance;
+                }
             }
         } else if let Some([a, b]) = hierarchy.children(node) {
             let [la, lb] = local_children(hierarchy, a, local);
@@ -75,28 +78,45 @@ fn reflect<const C: usize>(
     gatherer: &mut Gatherer<C>,
     shooter: &mut Shooter<C>,
     at: usize,
-    above: Light<C>,
+    above: [Light<C>; 3],
     reflectance: &Light<C>,
     scale: f64,
 ) {
-    let own = std::mem::replace(&mut gatherer.gathered[at], [0.0; C]);
-    let sum: Light<C> = std::array::from_fn(|c| above[c] + own[c]);
+    let own = std::mem::replace(&mut gatherer.gathered[at], [[0.0; C]; 3]);
+    let sum: [Light<C>; 3] =
+        std::array::from_fn(|k| std::array::from_fn(|c| above[k][c] + own[k][c]));
     let first = gatherer.children[at] as usize;
     if first == 0 {
         for c in 0..C {
-            let irradiance = sum[c] * scale;
+            // The fit may dip below zero at a corner where the truth does not.
+            let irradiance = scale * ((sum[0][c] + sum[1][c] + sum[2][c]) / 3.0).max(0.0);
             gatherer.total[at][c] += irradiance;
             shooter.unshot[at][c] = (reflectance[c] * irradiance) as f32;
         }
         return;
     }
-    for child in first..first + 4 {
-        reflect(gatherer, shooter, child, sum, reflectance, scale);
+    for which in 0..4 {
+        let part = split_values(&sum, which);
+        reflect(gatherer, shooter, first + which, part, reflectance, scale);
     }
     // The four children have equal areas.
     shooter.unshot[at] = std::array::from_fn(|c| {
         0.25 * (first..first + 4).map(|k| shooter.unshot[k][c]).sum::<f32>()
     });
+}
+
+/// Corner values of child `which` of a linear function, numbered as `split_triangle` does.
+fn split_values<const C: usize>(values: &[Light<C>; 3], which: usize) -> [Light<C>; 3] {
+    let mid = |i: usize, j: usize| -> Light<C> {
+        std::array::from_fn(|c| 0.5 * (values[i][c] + values[j][c]))
+    };
+    let (ab, bc, ca) = (mid(0, 1), mid(1, 2), mid(2, 0));
+    match which {
+        0 => [values[0], ab, ca],
+        1 => [ab, values[1], bc],
+        2 => [ca, bc, values[2]],
+        _ => [bc, ca, ab],
+    }
 }
 
 /// Area-weighted sums over an owner's leaves of a function of (leaf index, its area): used by the ledger.
@@ -134,7 +154,9 @@ pub fn gathered_power<const C: usize>(
     for local in 0..gatherer.facet_count {
         stack.push((local as usize, facet_area(FacetId(gatherer.first_facet + local))));
         while let Some((at, area)) = stack.pop() {
-            add(&gatherer.gathered[at], area);
+            for corner in &gatherer.gathered[at] {
+                add(corner, area / 3.0);
+            }
             match gatherer.children[at] as usize {
                 0 => {}
                 first => stack.extend((first..first + 4).map(|k| (k, area * 0.25))),

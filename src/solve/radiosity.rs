@@ -33,8 +33,9 @@ pub struct Gatherer<const C: usize> {
     pub facet_count: u32,
     /// As in [`Shooter::children`], with the patches made in this pass.
     pub children: Vec<u32>,
-    /// Irradiance gathered in this pass by facets and patches at their own level.
-    pub gathered: Vec<Light<C>>,
+    /// Irradiance gathered in this pass by facets and patches at their own level: a linear function by
+    /// its values at the three corners.
+    pub gathered: Vec<[Light<C>; 3]>,
     /// Irradiance of all passes so far; of use at the leaves.
     pub total: Vec<Light<C>>,
     /// Irradiance vectors gathered in this pass by clusters, by place in the owner's depth-first
@@ -51,7 +52,7 @@ impl<const C: usize> Gatherer<C> {
             first_facet: node.first_facet,
             facet_count: node.facet_count,
             children: vec![0; facets],
-            gathered: vec![[0.0; C]; facets],
+            gathered: vec![[[0.0; C]; 3]; facets],
             total: vec![[0.0; C]; facets],
             vectors: if facets > 1 {
                 vec![[DVec3::ZERO; C]; 2 * facets - 1]
@@ -72,7 +73,7 @@ impl<const C: usize> Gatherer<C> {
                 let inherited = self.total[at];
                 for _ in 0..4 {
                     self.children.push(0);
-                    self.gathered.push([0.0; C]);
+                    self.gathered.push([[0.0; C]; 3]);
                     self.total.push(inherited);
                 }
             }
@@ -160,7 +161,7 @@ impl<const C: usize> Radiosity<C> {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        let per_patch = 2 * size_of::<u32>() + size_of::<[f32; C]>() + 2 * size_of::<Light<C>>();
+        let per_patch = 2 * size_of::<u32>() + size_of::<[f32; C]>() + 4 * size_of::<Light<C>>();
         self.gatherers
             .iter()
             .map(|g| g.children.len() * per_patch + g.vectors.len() * size_of::<[DVec3; C]>())
