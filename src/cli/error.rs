@@ -47,7 +47,7 @@ impl CliError {
             | Self::Solve(SolveError::Config(_)) => 2,
             Self::Solve(SolveError::Interrupted { .. })
             | Self::Output(OutputError::Interrupted { .. }) => 130,
-            Self::Solve(_) | Self::Embree(_) | Self::Output(_) | Self::System(_) => 3,
+            Self::Embree(_) | Self::Output(_) | Self::System(_) => 3,
         }
     }
 

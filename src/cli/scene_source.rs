@@ -15,7 +15,12 @@ pub fn load_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> 
         Some(name) => {
             let scene = generate(name)?;
             let library = format!("{}.mtl", scene.name);
-            Ok(load_text(source, &scene.obj, &[(&library, &scene.mtl)], config)?)
+            Ok(load_text(
+                source,
+                scene.obj.as_bytes(),
+                &[(&library, scene.mtl.as_bytes())],
+                config,
+            )?)
         }
     }
 }

@@ -79,6 +79,9 @@ pub struct SolveArgs {
     /// Refine until an exchange carries less than this fraction of the emitted power.
     #[arg(long, value_name = "X", default_value_t = SolveConfig::default().epsilon, allow_negative_numbers = true)]
     pub epsilon: f64,
+    /// Refine a receiver until an exchange leaves less than this fraction of the mean irradiance unresolved on it.
+    #[arg(long, value_name = "X", default_value_t = SolveConfig::default().gradient, allow_negative_numbers = true)]
+    pub gradient: f64,
     /// Visibility samples of an exchange; multiples of 8 are cheapest.
     #[arg(long, value_name = "N", default_value_t = SolveConfig::default().rays, allow_negative_numbers = true)]
     pub rays: u32,
@@ -112,6 +115,7 @@ impl SolveArgs {
                 TechniqueArg::Unoccluded => Technique::Unoccluded,
             },
             epsilon: self.epsilon,
+            gradient: self.gradient,
             rays: self.rays,
             stop: match (self.passes, self.converge) {
                 (Some(n), _) => Stop::Passes(n),

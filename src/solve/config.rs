@@ -87,6 +87,9 @@ impl SolveConfig {
         if !(self.epsilon > 0.0 && self.epsilon.is_finite()) {
             return fail("--epsilon", "must be a positive finite number");
         }
+        if !(self.gradient > 0.0 && self.gradient.is_finite()) {
+            return fail("--gradient", "must be a positive finite number");
+        }
         if self.rays == 0 || self.rays > Self::MAX_RAYS {
             return fail("--rays", "must be between 1 and 1048576");
         }
