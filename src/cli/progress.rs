@@ -25,8 +25,9 @@ impl Progress {
             // Hidden by itself where standard error is no terminal.
             ProgressBar::new(0)
         };
-        let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} % {msg} left {eta}")
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let style =
+            ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} % {msg} left {eta}")
+                .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style.progress_chars("=> "));
         Self {
             bar,
@@ -62,7 +63,8 @@ impl Observer for Progress {
     fn task_done(&self, exchanges: u64) {
         let all = self.exchanges.fetch_add(exchanges, Ordering::Relaxed) + exchanges;
         let rate = all as f64 / self.started.elapsed().as_secs_f64().max(1e-9);
-        self.bar.set_message(format!("{} exchanges/s", HumanCount(rate as u64)));
+        self.bar
+            .set_message(format!("{} exchanges/s", HumanCount(rate as u64)));
         self.bar.inc(1);
     }
 

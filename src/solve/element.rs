@@ -212,9 +212,8 @@ impl Element {
                     return false;
                 }
                 let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;
-                let by_plane = self.plane_low(&other.bounds)
-                    - self.deviation
-                    - 2.0 * self.cone_sin * reach;
+                let by_plane =
+                    self.plane_low(&other.bounds) - self.deviation - 2.0 * self.cone_sin * reach;
                 if by_plane >= -tolerance {
                     return true;
                 }

@@ -60,7 +60,14 @@ pub fn add_plate(scene: &mut Scene, corner: Vec3, u: Vec3, v: Vec3, cells: u32, 
 }
 
 /// Adds the six walls of the box, their fronts inward (or outward); walls in the order -x +x -y +y -z +z.
-pub fn add_box(scene: &mut Scene, lo: Vec3, hi: Vec3, cells: u32, surfaces: [u32; 6], inward: bool) {
+pub fn add_box(
+    scene: &mut Scene,
+    lo: Vec3,
+    hi: Vec3,
+    cells: u32,
+    surfaces: [u32; 6],
+    inward: bool,
+) {
     let e = hi - lo;
     for axis in 0..3 {
         let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -75,7 +82,14 @@ pub fn add_box(scene: &mut Scene, lo: Vec3, hi: Vec3, cells: u32, surfaces: [u32
             }
             // u x v points along +axis: inward for the low wall.
             let (first, second) = if high == inward { (v, u) } else { (u, v) };
-            add_plate(scene, corner, first, second, cells, surfaces[2 * axis + usize::from(high)]);
+            add_plate(
+                scene,
+                corner,
+                first,
+                second,
+                cells,
+                surfaces[2 * axis + usize::from(high)],
+            );
         }
     }
 }

@@ -48,7 +48,9 @@ pub fn triangle_vector(
         }
     }
     let centroid = (rel[0] + rel[1] + rel[2]) * (1.0 / 3.0);
-    let radius2 = rel.iter().fold(0.0f32, |m, r| m.max((*r - centroid).length_squared()));
+    let radius2 = rel
+        .iter()
+        .fold(0.0f32, |m, r| m.max((*r - centroid).length_squared()));
     let distance2 = centroid.length_squared();
     if distance2 > POINT_RADII * POINT_RADII * radius2 {
         let inverse = 1.0 / distance2;
@@ -106,7 +108,13 @@ fn contour_clipped(rel: [Vec3; 3], h: [f32; 3]) -> Vec3 {
 }
 
 /// The vector K of a unit-radiosity element at a point. A cluster must face the point fully.
-fn element_vector(scene: &Scene, hierarchy: &Hierarchy, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+fn element_vector(
+    scene: &Scene,
+    hierarchy: &Hierarchy,
+    source: &Element,
+    point: Vec3,
+    normal: Option<Vec3>,
+) -> Vec3 {
     match source.shape {
         Shape::Triangle(corners) => {
             triangle_vector(corners, source.normal, source.area, point, normal)
@@ -116,7 +124,13 @@ fn element_vector(scene: &Scene, hierarchy: &Hierarchy, source: &Element, point:
     }
 }
 
-fn cluster_vector(scene: &Scene, hierarchy: &Hierarchy, id: NodeId, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+fn cluster_vector(
+    scene: &Scene,
+    hierarchy: &Hierarchy,
+    id: NodeId,
+    point: Vec3,
+    normal: Option<Vec3>,
+) -> Vec3 {
     let Some(children) = hierarchy.children(id) else {
         let leaf = Element::of_node(scene, hierarchy, id);
         return element_vector(scene, hierarchy, &leaf, point, normal);
@@ -317,7 +331,8 @@ pub fn oracle_form_factor(source: &Element, receiver: &Element) -> f32 {
     let spread = (source.radius + receiver.radius) * inverse;
     let cos_source = (source.normal.dot(d) * inverse).max(0.0) + spread + source.cone_sin;
     let cos_receiver = (-receiver.normal.dot(d) * inverse).max(0.0) + spread + receiver.cone_sin;
-    let f = receiver.area * cos_source.min(1.0) * cos_receiver.min(1.0) / (PI * distance2 + receiver.area);
+    let f = receiver.area * cos_source.min(1.0) * cos_receiver.min(1.0)
+        / (PI * distance2 + receiver.area);
     f.min(1.0)
 }
 
@@ -381,7 +396,9 @@ mod tests {
     #[test]
     fn parallel_rectangle_matches_its_closed_form_at_any_distance() {
         // From contact to the far rules: relative error of each against the closed form.
-        for c in [0.01f32, 0.1, 0.5, 1.0, 3.0, 6.0, 9.0, 15.0, 25.0, 45.0, 100.0] {
+        for c in [
+            0.01f32, 0.1, 0.5, 1.0, 3.0, 6.0, 9.0, 15.0, 25.0, 45.0, 100.0,
+        ] {
             for (a, b) in [(1.0f32, 1.0), (0.5, 2.0)] {
                 let got = rectangle(above(a, b, c), Vec3::ZERO, Vec3::Z);
                 let want = parallel(f64::from(a), f64::from(b), f64::from(c));
@@ -462,9 +479,15 @@ mod tests {
             }
         }
         for (point, normal) in [
-            (Vec3::new(0.1, -0.2, 0.3), Vec3::new(0.3, 0.5, -0.8).normalize()),
+            (
+                Vec3::new(0.1, -0.2, 0.3),
+                Vec3::new(0.3, 0.5, -0.8).normalize(),
+            ),
             (Vec3::new(-0.499, 0.499, -0.499), Vec3::Z),
-            (Vec3::new(0.0, 0.45, 0.2), Vec3::new(-1.0, 0.02, 0.1).normalize()),
+            (
+                Vec3::new(0.0, 0.45, 0.2),
+                Vec3::new(-1.0, 0.02, 0.1).normalize(),
+            ),
         ] {
             let sum: f32 = walls.iter().map(|&w| rectangle(w, point, normal)).sum();
             assert!((sum - 1.0).abs() < 1.0e-5, "{point} {normal}: {sum}");

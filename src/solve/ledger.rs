@@ -84,8 +84,18 @@ pub fn escape(
                     let patch = patches[before.partition_point(|&x| x <= target) - 1];
                     let facet = hierarchy.facets[patch.facet.index()];
                     let [a, b, c] = patch.path.corners(scene.facet_corners(facet));
-                    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-                    cosine_ray(a + (b - a) * u + (c - a) * v, normals[patch.facet.index()], s, t, tau)
+                    let (u, v) = if u + v > 1.0 {
+                        (1.0 - u, 1.0 - v)
+                    } else {
+                        (u, v)
+                    };
+                    cosine_ray(
+                        a + (b - a) * u + (c - a) * v,
+                        normals[patch.facet.index()],
+                        s,
+                        t,
+                        tau,
+                    )
                 })
                 .collect();
             let mut hits = Vec::with_capacity(rays.len());

@@ -14,6 +14,7 @@ mod pass;
 mod prepared;
 mod push_pull;
 mod radiosity;
+mod sampled_element;
 mod solution;
 #[allow(clippy::module_inception, reason = "the solve of the solve stage")]
 mod solve;

@@ -60,7 +60,10 @@ pub fn owner_cut(hierarchy: &Hierarchy) -> Vec<NodeId> {
             heap.extend(children.map(weigh));
         }
     }
-    let mut cut: Vec<NodeId> = whole.into_iter().chain(heap.into_iter().map(|h| h.node)).collect();
+    let mut cut: Vec<NodeId> = whole
+        .into_iter()
+        .chain(heap.into_iter().map(|h| h.node))
+        .collect();
     cut.sort_by_key(|&n| hierarchy.node(n).first_facet);
     cut
 }

@@ -11,12 +11,13 @@ use super::observer::Observer;
 use super::oracle::{Decision, Oracle};
 use super::push_pull::local_children;
 use super::radiosity::{Gatherer, Radiosity, Shooter};
+use super::sampled_element::{ReceiverSurface, SourceSurface};
 use super::statistics::PassStatistics;
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::embree::CommittedScene;
 use crate::math::{NodeId, hash_u64};
 use crate::scene::Scene;
-use crate::visibility::{Surface, SurfacePoint, sample_visibility};
+use crate::visibility::sample_visibility;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -49,6 +50,7 @@ struct Pass<'a, const C: usize> {
     node_unshot: &'a [[f32; C]],
     owner_of_facet: &'a [u32],
     first_facets: &'a [u32],
+    power_before: &'a [f64],
     oracle: Oracle,
     technique: Technique,
     rays: u32,
@@ -93,6 +95,7 @@ pub fn run_pass<const C: usize>(
         node_unshot,
         owner_of_facet,
         first_facets,
+        power_before,
     } = light;
     let pass_data = Pass {
         context,
@@ -100,6 +103,7 @@ pub fn run_pass<const C: usize>(
         node_unshot,
         owner_of_facet,
         first_facets,
+        power_before,
         oracle: Oracle {
             threshold: config.epsilon * emitted,
             irradiance_tolerance: config.gradient * emitted / context.polygon_area,
@@ -189,7 +193,10 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         let node = context.hierarchy.node(id);
         let (owner, slot) = if node.kind == NodeKind::Facet {
             let owner = self.pass.owner_of_facet[node.first_facet as usize];
-            (owner, node.first_facet - self.pass.first_facets[owner as usize])
+            (
+                owner,
+                node.first_facet - self.pass.first_facets[owner as usize],
+            )
         } else {
             (0, 0)
         };
@@ -254,7 +261,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     element: source.element.triangle_child(corners, which),
                     owner: source.owner,
                     // Below a frozen leaf the source is split virtually: the leaf's radiosity serves.
-                    slot: if first == 0 { source.slot } else { first + which },
+                    slot: if first == 0 {
+                        source.slot
+                    } else {
+                        first + which
+                    },
                 };
                 self.walk(&child, receiver);
             }
@@ -305,32 +316,47 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             return self.split_receiver(source, receiver);
         }
         self.outcome.statistics.exchanges += 1;
-        let visibility = self.visibility(&source.element, &receiver.element);
+        let visibility = self.visibility(source, &receiver.element);
         if visibility > 0.0 {
             let radiosity = self.radiosity(source).map(f64::from);
-            self.deposit(receiver, unoccluded, radiosity.map(|b| b * f64::from(visibility)));
+            self.deposit(
+                receiver,
+                unoccluded,
+                radiosity.map(|b| b * f64::from(visibility)),
+            );
         }
     }
 
-    fn visibility(&mut self, source: &Element, receiver: &Element) -> f32 {
+    fn visibility(&mut self, source: &Source, receiver: &Element) -> f32 {
         match self.pass.technique {
             Technique::Unoccluded => 1.0,
             Technique::Normal => self.sample(source, receiver),
         }
     }
 
-    fn sample(&mut self, source: &Element, receiver: &Element) -> f32 {
+    fn sample(&mut self, source: &Source, receiver: &Element) -> f32 {
         let context = self.pass.context;
-        let key = exchange_key(self.pass.key, source, receiver);
+        let key = exchange_key(self.pass.key, &source.element, receiver);
         let sampled = sample_visibility(
             context.embree,
-            &SampledElement {
-                element: source,
-                context,
+            &SourceSurface {
+                element: &source.element,
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                normals: context.normals,
+                power_before: self.pass.power_before,
+                shooters: self.pass.shooters,
+                owner_of_facet: self.pass.owner_of_facet,
+                first_facets: self.pass.first_facets,
+                owner: source.owner,
+                slot: source.slot,
             },
-            &SampledElement {
+            &ReceiverSurface {
                 element: receiver,
-                context,
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                normals: context.normals,
+                area_before: context.area_before,
             },
             self.pass.rays,
             key,
@@ -370,43 +396,4 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
 fn exchange_key(pass_key: u64, source: &Element, receiver: &Element) -> u64 {
     let end = |e: &Element| hash_u64(u64::from(e.node.0) ^ e.path.0.rotate_left(32));
     hash_u64(end(receiver).wrapping_add(hash_u64(end(source) ^ pass_key)))
-}
-
-/// An element as a surface to sample.
-struct SampledElement<'a> {
-    element: &'a Element,
-    context: SolveContext<'a>,
-}
-
-impl Surface for SampledElement<'_> {
-    fn point(&self, u: f32, v: f32) -> SurfacePoint {
-        if let Shape::Triangle(corners) = self.element.shape {
-            return SurfacePoint {
-                position: triangle_point(corners, u, v),
-                normal: self.element.normal,
-            };
-        }
-        // Choose a facet by area with u, and use what is left of u inside it.
-        let first = self.element.first_facet as usize;
-        let last = first + self.element.facet_count as usize;
-        let before = &self.context.area_before[first..=last];
-        let target = before[0] + f64::from(u) * (before[before.len() - 1] - before[0]);
-        let chosen = before[1..before.len() - 1].partition_point(|&x| x <= target);
-        let rest = (target - before[chosen]) / (before[chosen + 1] - before[chosen]);
-        let facet = first + chosen;
-        let corners = self
-            .context
-            .scene
-            .facet_corners(self.context.hierarchy.facets[facet]);
-        SurfacePoint {
-            position: triangle_point(corners, rest as f32, v),
-            normal: self.context.normals[facet],
-        }
-    }
-}
-
-/// Uniform point of a triangle from a point of the unit square, folded along its diagonal.
-fn triangle_point([a, b, c]: [Vec3; 3], u: f32, v: f32) -> Vec3 {
-    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-    a + (b - a) * u + (c - a) * v
 }

@@ -28,7 +28,14 @@ pub fn push_pull<const C: usize>(
     push_nodes(hierarchy, facets, gatherer);
     for facet in 0..gatherer.facet_count {
         let reflectance = facets.reflectance[(gatherer.first_facet + facet) as usize];
-        reflect(gatherer, shooter, facet as usize, [[0.0; C]; 3], &reflectance, scale);
+        reflect(
+            gatherer,
+            shooter,
+            facet as usize,
+            [[0.0; C]; 3],
+            &reflectance,
+            scale,
+        );
     }
 }
 
@@ -101,7 +108,9 @@ fn reflect<const C: usize>(
     }
     // The four children have equal areas.
     shooter.unshot[at] = std::array::from_fn(|c| {
-        0.25 * (first..first + 4).map(|k| shooter.unshot[k][c]).sum::<f32>()
+        0.25 * (first..first + 4)
+            .map(|k| shooter.unshot[k][c])
+            .sum::<f32>()
     });
 }
 
@@ -152,7 +161,10 @@ pub fn gathered_power<const C: usize>(
     };
     let mut stack = Vec::new();
     for local in 0..gatherer.facet_count {
-        stack.push((local as usize, facet_area(FacetId(gatherer.first_facet + local))));
+        stack.push((
+            local as usize,
+            facet_area(FacetId(gatherer.first_facet + local)),
+        ));
         while let Some((at, area)) = stack.pop() {
             for corner in &gatherer.gathered[at] {
                 add(corner, area / 3.0);

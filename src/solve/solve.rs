@@ -112,7 +112,9 @@ impl<const C: usize> FacetTable<C> {
             table.area_before.push(sum);
             let reflectance = scene.surface(facet.polygon).reflectance;
             let emission = scene.emission(facet);
-            table.reflectance.push(std::array::from_fn(|k| reflectance[k]));
+            table
+                .reflectance
+                .push(std::array::from_fn(|k| reflectance[k]));
             table
                 .emitted
                 .push(std::array::from_fn(|k| PI * (emission[k] / unit)));
@@ -212,7 +214,11 @@ impl<'a, const C: usize> Solver<'a, C> {
     }
 
     /// Runs one pass and pushes its light: counts, power dropped, and the normalising scale.
-    fn pass(&mut self, pass: u32, normalise: bool) -> Result<(PassStatistics, f64, f64), SolveError> {
+    fn pass(
+        &mut self,
+        pass: u32,
+        normalise: bool,
+    ) -> Result<(PassStatistics, f64, f64), SolveError> {
         let start = Instant::now();
         let context = SolveContext {
             scene: self.scene,
@@ -264,9 +270,13 @@ impl<'a, const C: usize> Solver<'a, C> {
             .zip(&self.light.shooters)
             .map(|(gatherer, shooter)| {
                 let mut sum = 0.0;
-                sum_leaves(gatherer, |f| self.table.area(f), |_, at, area| {
-                    sum += area * mean(&shooter.unshot[at].map(f64::from));
-                });
+                sum_leaves(
+                    gatherer,
+                    |f| self.table.area(f),
+                    |_, at, area| {
+                        sum += area * mean(&shooter.unshot[at].map(f64::from));
+                    },
+                );
                 sum
             })
             .collect::<Vec<f64>>()
@@ -279,7 +289,11 @@ impl<'a, const C: usize> Solver<'a, C> {
         self.light
             .gatherers
             .par_iter()
-            .map(|gatherer| mean(&gathered_power(self.hierarchy, gatherer, |f| self.table.area(f))))
+            .map(|gatherer| {
+                mean(&gathered_power(self.hierarchy, gatherer, |f| {
+                    self.table.area(f)
+                }))
+            })
             .collect::<Vec<f64>>()
             .iter()
             .sum()
@@ -324,7 +338,14 @@ impl<'a, const C: usize> Solver<'a, C> {
                 power: self.table.areas[f],
             })
             .collect();
-        let lost = escape(self.scene, self.hierarchy, self.embree, &self.table.normals, &weights, self.config.seed);
+        let lost = escape(
+            self.scene,
+            self.hierarchy,
+            self.embree,
+            &self.table.normals,
+            &weights,
+            self.config.seed,
+        );
         lost.escaped == 0.0 && lost.swallowed == 0.0
     }
 
@@ -351,7 +372,9 @@ impl<'a, const C: usize> Solver<'a, C> {
     /// Radiosity of a leaf, emission included, in the solve's unit.
     fn leaf_radiosity(&self, facet: FacetId, irradiance: &Light<C>) -> Light<C> {
         let i = facet.index();
-        std::array::from_fn(|c| self.table.emitted[i][c] + self.table.reflectance[i][c] * irradiance[c])
+        std::array::from_fn(|c| {
+            self.table.emitted[i][c] + self.table.reflectance[i][c] * irradiance[c]
+        })
     }
 
     fn ledger(&self, unshot: f64) -> PowerLedger {

@@ -80,7 +80,13 @@ pub fn sample_visibility(
                 *weight = segment.weight;
                 total_weight += segment.weight;
                 if segment.near < segment.far {
-                    packet.set(lane, from.position, segment.direction, segment.near, segment.far);
+                    packet.set(
+                        lane,
+                        from.position,
+                        segment.direction,
+                        segment.near,
+                        segment.far,
+                    );
                     active |= 1 << lane;
                 }
             }
