@@ -27,8 +27,12 @@ pub struct Cli {
 pub enum Command {
     /// Solve a scene: radiosity on every face, its picture and its numbers.
     Solve(SolveCommand),
+    /// Render a solved folder from any place.
+    View(ViewCommand),
     /// Write a built-in scene as OBJ and MTL.
     Generate(GenerateCommand),
+    /// Write the face clusters of a scene in colours, to look at (paper, Fig. 1).
+    Clusters(ClustersCommand),
 }
 
 /// `certilux solve`
@@ -65,4 +69,91 @@ pub struct GenerateCommand {
     /// List the built-in scenes.
     #[arg(long)]
     pub list: bool,
+}
+
+/// `certilux view`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Without --eye and --target the camera chooses a place inside the lit space. Lengths are in the scene's units."
+)]
+pub struct ViewCommand {
+    /// A folder that `certilux solve` wrote.
+    #[arg(value_name = "DIR")]
+    pub solved: PathBuf,
+    /// The picture: .exr (radiance, irradiance, normals, depth, face ids) or .png (tone-mapped).
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// How the camera is placed where no --eye or --target says.
+    #[arg(long, value_enum, default_value_t = CameraArg::Auto)]
+    pub camera: CameraArg,
+    /// Where the camera stands.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    pub eye: Option<[f64; 3]>,
+    /// What it looks at.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    pub target: Option<[f64; 3]>,
+    /// What is up.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    pub up: Option<[f64; 3]>,
+    /// Vertical angle of view in degrees.
+    #[arg(long, value_name = "DEG")]
+    pub fov: Option<f64>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "960x720")]
+    pub size: PictureSize,
+    /// Stops brighter (or darker) than the automatic exposure of a PNG.
+    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub exposure: f64,
+    /// One value a patch instead of smooth shading.
+    #[arg(long)]
+    pub flat: bool,
+}
+
+/// `--camera`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum CameraArg {
+    /// Inside the lit space, where much of it is seen.
+    Auto,
+}
+
+/// Width and height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureSize(pub [u32; 2]);
+
+/// Greatest width or height: 16 k pictures hold 5 GB of layers.
+const GREATEST_SIDE: u32 = 16_384;
+
+fn parse_vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|t| t.trim().parse::<f64>().map_err(|e| format!("{t:?}: {e}")))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [x, y, z] if numbers.iter().all(|n| n.is_finite()) => Ok([x, y, z]),
+        _ => Err("three finite numbers with commas between them are needed".to_owned()),
+    }
+}
+
+fn parse_size(text: &str) -> Result<PictureSize, String> {
+    let reason = || format!("a size such as 960x720 is needed, each side 1 to {GREATEST_SIDE}");
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(reason)?;
+    let side = |t: &str| match t.parse::<u32>() {
+        Ok(n) if (1..=GREATEST_SIDE).contains(&n) => Ok(n),
+        _ => Err(reason()),
+    };
+    Ok(PictureSize([side(width)?, side(height)?]))
+}
+
+/// `certilux clusters`
+#[derive(Debug, clap::Args)]
+pub struct ClustersCommand {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The coloured mesh.
+    #[arg(long, value_name = "FILE.ply")]
+    pub out: PathBuf,
+    /// Clusters to show: the hierarchy is cut where it has this many nodes.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
+    pub count: u32,
 }

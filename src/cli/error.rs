@@ -1,7 +1,7 @@
 //! Everything that can go wrong on the command line, and its exit code.
 
 use crate::embree::EmbreeError;
-use crate::output::OutputError;
+use crate::output::{CameraError, OutputError};
 use crate::scene::LoadError;
 use crate::scene::generate::UnknownScene;
 use crate::solve::{ConfigError, SolveError};
@@ -31,6 +31,15 @@ pub enum CliError {
     /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The camera sees nothing.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// An argument that the parser cannot check.
+    #[error("{0}")]
+    Argument(String),
+    /// Ctrl-C.
+    #[error("interrupted; nothing was left half-written")]
+    Interrupted,
     /// The system refused something.
     #[error("{0}")]
     System(String),
@@ -44,8 +53,11 @@ impl CliError {
             Self::Load(_)
             | Self::UnknownScene(_)
             | Self::Config(_)
+            | Self::Camera(_)
+            | Self::Argument(_)
             | Self::Solve(SolveError::Config(_)) => 2,
-            Self::Solve(SolveError::Interrupted { .. })
+            Self::Interrupted
+            | Self::Solve(SolveError::Interrupted { .. })
             | Self::Output(OutputError::Interrupted { .. }) => 130,
             Self::Embree(_) | Self::Output(_) | Self::System(_) => 3,
         }

@@ -2,6 +2,7 @@
 
 use super::args::GenerateCommand;
 use super::error::CliError;
+use super::render::make_folder;
 use super::run::Session;
 use crate::output::{OutputError, write_atomically};
 use crate::scene::generate::{catalogue, generate};
@@ -16,7 +17,7 @@ pub fn run(session: &Session, command: &GenerateCommand) -> Result<(), CliError>
         return Ok(());
     };
     let scene = generate(name)?;
-    std::fs::create_dir_all(out).map_err(|e| OutputError::io("make the folder", out, e))?;
+    make_folder(out)?;
     for (extension, text) in [("mtl", &scene.mtl), ("obj", &scene.obj)] {
         let path = out.join(format!("{}.{extension}", scene.name));
         write_atomically(&path, &session.interrupted, |w| {

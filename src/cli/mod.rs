@@ -1,15 +1,18 @@
 //! Arguments as typed, then as needed, then the work.
 
 mod args;
+mod clusters_command;
 mod error;
 mod generate_command;
 mod interrupt;
 mod progress;
+mod render;
 mod run;
 mod scene_source;
 mod solve_args;
 mod solve_command;
 mod summary;
+mod view_command;
 
 pub use error::CliError;
 pub use run::run;

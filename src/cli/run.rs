@@ -2,7 +2,7 @@
 
 use super::args::{Cli, Command};
 use super::error::CliError;
-use super::{generate_command, interrupt, solve_command};
+use super::{clusters_command, generate_command, interrupt, solve_command, view_command};
 use clap::Parser;
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -35,6 +35,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
     };
     match cli.command {
         Command::Solve(command) => solve_command::run(&session, &command),
+        Command::View(command) => view_command::run(&session, &command),
+        Command::Clusters(command) => clusters_command::run(&session, &command),
         Command::Generate(command) => generate_command::run(&session, &command),
     }
 }

@@ -1,6 +1,7 @@
 //! Where a scene comes from: an OBJ file, or `builtin:NAME`.
 
 use super::error::CliError;
+use super::solve_args::SceneArgs;
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, Scene, load_file, load_text};
 use std::path::Path;
@@ -8,8 +9,16 @@ use std::path::Path;
 /// What stands before the name of a built-in scene.
 const BUILTIN: &str = "builtin:";
 
-/// Loads the scene that the command line names.
-pub fn load_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> {
+/// Loads the scene that the command line names, and says what is odd about it.
+pub fn load_scene(arguments: &SceneArgs) -> Result<Scene, CliError> {
+    let scene = read_scene(&arguments.scene, &arguments.load_config())?;
+    for warning in &scene.warnings {
+        eprintln!("certilux: warning: {}", warning.0);
+    }
+    Ok(scene)
+}
+
+fn read_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> {
     match source.strip_prefix(BUILTIN) {
         None => Ok(load_file(Path::new(source), config)?),
         Some(name) => {

@@ -3,12 +3,13 @@
 use super::args::SolveCommand;
 use super::error::CliError;
 use super::progress::Progress;
+use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
 use super::run::Session;
 use super::scene_source::load_scene;
 use super::summary::print_summary;
 use crate::embree::DeviceConfig;
 use crate::output::{
-    HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh, StatsFile, write_ply,
+    HierarchyBlock, SceneBlock, SecondsBlock, SolvedMesh, StatsFile, ViewConfig, write_ply,
 };
 use crate::solve::{PreparedScene, SolveConfig, Solved, solve};
 use std::path::PathBuf;
@@ -18,9 +19,8 @@ use std::time::Instant;
 /// Solves a scene and writes the results.
 pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    let out = &command.out;
     // A folder that cannot be made is better known before the work than after.
-    std::fs::create_dir_all(out).map_err(|e| OutputError::io("make the folder", out, e))?;
+    make_folder(&command.out)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(command.scene.threads)
         .stack_size(WORKER_STACK)
@@ -39,11 +39,8 @@ fn solve_and_write(
     config: &SolveConfig,
 ) -> Result<(), CliError> {
     let start = Instant::now();
-    let scene = load_scene(&command.scene.scene, &command.scene.load_config())?;
+    let scene = load_scene(&command.scene)?;
     let load = start.elapsed().as_secs_f64();
-    for warning in &scene.warnings {
-        eprintln!("certilux: warning: {}", warning.0);
-    }
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
     let prepared = PreparedScene::new(
         scene,
@@ -73,6 +70,17 @@ fn solve_and_write(
     };
     let mesh = SolvedMesh::new(&prepared.scene, &solved.solution);
     write_ply(&file("solution.ply"), &mesh, &session.interrupted)?;
+    if !command.no_view {
+        let picture = render(
+            &mesh,
+            |view| view.automatic_camera(DEFAULT_SIZE),
+            &ViewConfig::default(),
+            &session.interrupted,
+        )?;
+        for name in ["view.exr", "view.png"] {
+            write_picture(&file(name), &picture, 0.0, &session.interrupted)?;
+        }
+    }
     let stats_path = file("stats.json");
     let mut stats = stats_file(session, config, &prepared, &solved);
     stats.seconds = SecondsBlock {

@@ -1,0 +1,31 @@
+//! `certilux clusters`: face clusters in colours (paper, Fig. 1).
+
+use super::args::ClustersCommand;
+use super::error::CliError;
+use super::run::Session;
+use super::scene_source::load_scene;
+use crate::embree::DeviceConfig;
+use crate::output::write_cluster_ply;
+use crate::solve::{PreparedScene, SolveConfig};
+
+/// Writes the clusters where the hierarchy is cut at `--count` nodes.
+pub fn run(session: &Session, command: &ClustersCommand) -> Result<(), CliError> {
+    let scene = load_scene(&command.scene)?;
+    let prepared = PreparedScene::new(
+        scene,
+        command.scene.sides_mode(),
+        SolveConfig::default().seed,
+        &DeviceConfig::default(),
+    )?;
+    let shown = write_cluster_ply(
+        &command.out,
+        &prepared.scene,
+        &prepared.hierarchy,
+        command.count as usize,
+        &session.interrupted,
+    )?;
+    if !session.quiet {
+        println!("wrote {}: {shown} clusters", command.out.display());
+    }
+    Ok(())
+}

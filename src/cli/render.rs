@@ -1,0 +1,55 @@
+//! A picture of a solved mesh: shared by `solve` and `view`.
+
+use super::error::CliError;
+use crate::embree::{Device, DeviceConfig};
+use crate::output::{
+    Camera, OutputError, Picture, SolvedMesh, View, ViewConfig, write_exr, write_png,
+};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// Pixels of a picture unless told.
+pub const DEFAULT_SIZE: [u32; 2] = [960, 720];
+
+/// Renders with `camera`, or from an automatic place inside the lit space.
+pub fn render(
+    mesh: &SolvedMesh,
+    camera: impl FnOnce(&View) -> Camera,
+    config: &ViewConfig,
+    interrupted: &AtomicBool,
+) -> Result<Picture, CliError> {
+    let device = Device::new(&DeviceConfig::default())?;
+    let view = View::new(mesh, &device)?;
+    let camera = camera(&view).pin_hole()?;
+    view.render(&camera, config, interrupted)
+        .ok_or(CliError::Interrupted)
+}
+
+/// Writes a picture by the ending of its name: EXR with all layers, or PNG tone-mapped and `stops` brighter.
+pub fn write_picture(
+    path: &Path,
+    picture: &Picture,
+    stops: f64,
+    interrupted: &AtomicBool,
+) -> Result<(), CliError> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("exr") => write_exr(path, picture, interrupted)?,
+        Some("png") => {
+            let tone_map = picture.exposure().brighter(stops);
+            write_png(path, picture, tone_map, interrupted)?;
+        }
+        _ => {
+            return Err(CliError::Argument(format!(
+                "--out {}: a picture's name ends in .exr or .png",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Makes a folder for results.
+pub fn make_folder(path: &Path) -> Result<(), OutputError> {
+    std::fs::create_dir_all(path).map_err(|e| OutputError::io("make the folder", path, e))
+}
