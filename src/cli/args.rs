@@ -102,7 +102,12 @@ pub struct ViewCommand {
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "960x720")]
     pub size: PictureSize,
     /// Stops brighter (or darker) than the automatic exposure of a PNG.
-    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "EV",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     pub exposure: f64,
     /// One value a patch instead of smooth shading.
     #[arg(long)]

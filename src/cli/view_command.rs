@@ -24,7 +24,12 @@ pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
         &config,
         &session.interrupted,
     )?;
-    write_picture(&command.out, &picture, command.exposure, &session.interrupted)?;
+    write_picture(
+        &command.out,
+        &picture,
+        command.exposure,
+        &session.interrupted,
+    )?;
     if !session.quiet {
         println!("wrote {}", command.out.display());
     }

@@ -174,16 +174,15 @@ impl Element {
     pub fn faces_away(&self, other: &Self, tolerance: f32) -> bool {
         match self.shape {
             Shape::Volume => false,
-            Shape::Triangle(_) => self.plane_support(&other.bounds) <= tolerance,
+            Shape::Triangle(_) => self.plane_range(other)[1] <= tolerance,
             Shape::Cluster => {
                 if self.cone_cos <= 0.0 {
                     return false;
                 }
                 // Through the plane: n = cos p + sin q; the first term is the plane's support.
                 let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;
-                let by_plane = self.plane_support(&other.bounds)
-                    + self.deviation
-                    + 2.0 * self.cone_sin * reach;
+                let by_plane =
+                    self.plane_range(other)[1] + self.deviation + 2.0 * self.cone_sin * reach;
                 if by_plane <= tolerance {
                     return true;
                 }
@@ -206,14 +205,14 @@ impl Element {
     pub fn faces_fully(&self, other: &Self, tolerance: f32) -> bool {
         match self.shape {
             Shape::Volume => false,
-            Shape::Triangle(_) => self.plane_low(&other.bounds) >= -tolerance,
+            Shape::Triangle(_) => self.plane_range(other)[0] >= -tolerance,
             Shape::Cluster => {
                 if self.cone_cos <= 0.0 {
                     return false;
                 }
                 let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;
                 let by_plane =
-                    self.plane_low(&other.bounds) - self.deviation - 2.0 * self.cone_sin * reach;
+                    self.plane_range(other)[0] - self.deviation - 2.0 * self.cone_sin * reach;
                 if by_plane >= -tolerance {
                     return true;
                 }
@@ -230,15 +229,19 @@ impl Element {
         }
     }
 
-    /// Greatest signed distance of a box to the element's plane.
-    fn plane_support(&self, bounds: &Aabb) -> f32 {
+    /// Least and greatest signed distance of another element to this one's plane: of a triangle by its corners
+    /// (a slanting one's box reaches far through its own plane), of a cluster by its box.
+    fn plane_range(&self, other: &Self) -> [f32; 2] {
         let n = self.plane_normal;
-        n.max(Vec3::ZERO).dot(bounds.max) + n.min(Vec3::ZERO).dot(bounds.min) - self.plane_offset
-    }
-
-    /// Least signed distance of a box to the element's plane.
-    fn plane_low(&self, bounds: &Aabb) -> f32 {
-        let n = self.plane_normal;
-        n.max(Vec3::ZERO).dot(bounds.min) + n.min(Vec3::ZERO).dot(bounds.max) - self.plane_offset
+        if let Shape::Triangle(corners) = other.shape {
+            let [a, b, c] = corners.map(|p| n.dot(p) - self.plane_offset);
+            return [a.min(b).min(c), a.max(b).max(c)];
+        }
+        let (plus, minus) = (n.max(Vec3::ZERO), n.min(Vec3::ZERO));
+        let (lo, hi) = (other.bounds.min, other.bounds.max);
+        [
+            plus.dot(lo) + minus.dot(hi) - self.plane_offset,
+            plus.dot(hi) + minus.dot(lo) - self.plane_offset,
+        ]
     }
 }

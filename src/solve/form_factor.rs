@@ -23,18 +23,20 @@ const POINT_RADII: f32 = 40.0;
 const CLUSTER_RADII: f32 = 12.0;
 
 /// The vector K of a unit-radiosity triangle at `point`, clipped to the horizon of `normal` where
-/// that is given. Zero where the point lies behind the triangle.
+/// that is given. Zero where the point lies behind the triangle or within `tau` of its plane.
 pub fn triangle_vector(
     corners: [Vec3; 3],
     source_normal: Vec3,
     area: f32,
     point: Vec3,
     normal: Option<Vec3>,
+    tau: f32,
 ) -> Vec3 {
     let rel = corners.map(|c| c - point);
-    // Height of the point over the source's plane; behind it there is no light.
+    // Height of the point over the source's plane; behind it, and within tau of it, there is no light:
+    // the other side of the same sheet lies there.
     let height = -source_normal.dot(rel[0]);
-    if height <= 0.0 {
+    if height <= tau {
         return Vec3::ZERO;
     }
     if let Some(n) = normal {
@@ -107,36 +109,40 @@ fn contour_clipped(rel: [Vec3; 3], h: [f32; 3]) -> Vec3 {
     contour(&clipped[..count])
 }
 
+/// Where elements stand.
+#[derive(Clone, Copy)]
+pub struct Space<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its hierarchy.
+    pub hierarchy: &'a Hierarchy,
+    /// Depth below a surface within which nothing counts, normalised.
+    pub tau: f32,
+}
+
 /// The vector K of a unit-radiosity element at a point. A cluster must face the point fully.
-fn element_vector(
-    scene: &Scene,
-    hierarchy: &Hierarchy,
-    source: &Element,
-    point: Vec3,
-    normal: Option<Vec3>,
-) -> Vec3 {
+fn element_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
     match source.shape {
-        Shape::Triangle(corners) => {
-            triangle_vector(corners, source.normal, source.area, point, normal)
-        }
-        Shape::Cluster => cluster_vector(scene, hierarchy, source.node, point, normal),
+        Shape::Triangle(corners) => triangle_vector(
+            corners,
+            source.normal,
+            source.area,
+            point,
+            normal,
+            space.tau,
+        ),
+        Shape::Cluster => cluster_vector(space, source.node, point, normal),
         Shape::Volume => Vec3::ZERO,
     }
 }
 
-fn cluster_vector(
-    scene: &Scene,
-    hierarchy: &Hierarchy,
-    id: NodeId,
-    point: Vec3,
-    normal: Option<Vec3>,
-) -> Vec3 {
-    let Some(children) = hierarchy.children(id) else {
-        let leaf = Element::of_node(scene, hierarchy, id);
-        return element_vector(scene, hierarchy, &leaf, point, normal);
+fn cluster_vector(space: &Space, id: NodeId, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+    let Some(children) = space.hierarchy.children(id) else {
+        let leaf = Element::of_node(space.scene, space.hierarchy, id);
+        return element_vector(space, &leaf, point, normal);
     };
-    let node = hierarchy.node(id);
-    let shape = hierarchy.shape(id);
+    let node = space.hierarchy.node(id);
+    let shape = space.hierarchy.shape(id);
     let rel = shape.centroid - point;
     let distance2 = rel.length_squared();
     let half = (node.bounds.max - node.bounds.min) * 0.5;
@@ -152,7 +158,7 @@ fn cluster_vector(
     }
     children
         .into_iter()
-        .map(|child| cluster_vector(scene, hierarchy, child, point, normal))
+        .map(|child| cluster_vector(space, child, point, normal))
         .sum()
 }
 
@@ -181,20 +187,12 @@ impl Arrival {
 /// The number of receiver points grows towards contact, by the gap between the boxes over the
 /// receiver's radius: 1, 3, 12 or 48 points. Form factors at contact are thereby integrated and
 /// not guessed from the centres.
-pub fn arrival(
-    scene: &Scene,
-    hierarchy: &Hierarchy,
-    source: &Element,
-    receiver: &Element,
-) -> (Arrival, f32) {
+pub fn arrival(space: &Space, source: &Element, receiver: &Element) -> (Arrival, f32) {
     let gap = source.bounds.distance(receiver.bounds);
     match receiver.shape {
         Shape::Triangle(corners) => {
             let n = receiver.normal;
-            let at = |p: Vec3| {
-                n.dot(element_vector(scene, hierarchy, source, p, Some(n)))
-                    .max(0.0)
-            };
+            let at = |p: Vec3| n.dot(element_vector(space, source, p, Some(n))).max(0.0);
             if gap > 10.0 * receiver.radius {
                 return (Arrival::Linear([at(receiver.centroid); 3]), 0.0);
             }
@@ -214,7 +212,14 @@ pub fn arrival(
             let mean = moments.x + moments.y + moments.z;
             let fit = 12.0 * moments - Vec3::splat(3.0 * mean);
             if mean <= 0.0 {
-                return (Arrival::Linear([0.0; 3]), 0.0);
+                // Every point of the receiver may have missed the spot.
+                let spot = match source.shape {
+                    Shape::Triangle(from) if source.area < SPOT_AREA * receiver.area => {
+                        spot_mean(source, from, receiver, corners, gap, space.tau)
+                    }
+                    _ => 0.0,
+                };
+                return (Arrival::Linear([spot; 3]), spot);
             }
             let residual = if splits == 0 {
                 // Three points always lie on a linear function: ask a fourth.
@@ -222,16 +227,62 @@ pub fn arrival(
             } else {
                 samples.residual(fit)
             };
-            (Arrival::Linear(fit.to_array()), residual)
+            // A source much smaller than its receiver, and near it, lights a spot that the receiver's points
+            // may miss or hit too often: the mean is then taken from the source's side.
+            let scale = match source.shape {
+                Shape::Triangle(from) if source.area < SPOT_AREA * receiver.area => {
+                    spot_mean(source, from, receiver, corners, gap, space.tau) / mean
+                }
+                _ => 1.0,
+            };
+            (Arrival::Linear((fit * scale).to_array()), residual)
         }
         Shape::Cluster => {
             // Levels below the cluster whose centroids are the points: one, or up to eight.
             let levels = if gap > 10.0 * receiver.radius { 0 } else { 3 };
-            let sum = cluster_mean(scene, hierarchy, source, receiver.node, levels);
+            let sum = cluster_mean(space, source, receiver.node, levels);
             (Arrival::Vector(sum / receiver.area), 0.0)
         }
         Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
     }
+}
+
+/// Receiver points of a composite rule stand about a sixth of its size apart at contact, so a source of less
+/// than this share of its area may fall between them.
+const SPOT_AREA: f32 = 0.25;
+
+/// Mean irradiance of a receiver from a smaller source of unit radiosity, by reciprocity: A_r F_rs = A_s F_sr,
+/// with F_sr averaged over points of the source.
+fn spot_mean(
+    source: &Element,
+    source_corners: [Vec3; 3],
+    receiver: &Element,
+    receiver_corners: [Vec3; 3],
+    gap: f32,
+    tau: f32,
+) -> f32 {
+    let n = source.normal;
+    let at = |p: Vec3| {
+        let k = triangle_vector(
+            receiver_corners,
+            receiver.normal,
+            receiver.area,
+            p,
+            Some(n),
+            tau,
+        );
+        n.dot(k).max(0.0)
+    };
+    let splits = if gap > 1.5 * source.radius {
+        0
+    } else if gap > 0.25 * source.radius {
+        1
+    } else {
+        2
+    };
+    let mut samples = Samples::default();
+    samples.take(&at, source_corners, [Vec3::X, Vec3::Y, Vec3::Z], splits);
+    samples.mean() * source.area / receiver.area
 }
 
 /// Irradiance at the points of a composite rule on a receiver: at most 16 parts of 3 points.
@@ -282,6 +333,11 @@ impl Samples {
         points.map(|(&w, &e)| w * e).sum::<Vec3>() / self.count as f32
     }
 
+    /// Mean irradiance.
+    fn mean(&self) -> f32 {
+        self.irradiance[..self.count].iter().sum::<f32>() / self.count as f32
+    }
+
     /// Greatest distance of a sample from the linear function with these corner values.
     fn residual(&self, fit: Vec3) -> f32 {
         let points = self.lambda[..self.count].iter().zip(&self.irradiance);
@@ -296,25 +352,19 @@ fn three_points([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
 }
 
 /// Area times mean irradiance vector of a receiving cluster, from the nodes `levels` below.
-fn cluster_mean(
-    scene: &Scene,
-    hierarchy: &Hierarchy,
-    source: &Element,
-    receiver: NodeId,
-    levels: u32,
-) -> Vec3 {
-    let shape = hierarchy.shape(receiver);
-    let at = |p: Vec3| element_vector(scene, hierarchy, source, p, None);
-    match hierarchy.children(receiver) {
+fn cluster_mean(space: &Space, source: &Element, receiver: NodeId, levels: u32) -> Vec3 {
+    let shape = space.hierarchy.shape(receiver);
+    let at = |p: Vec3| element_vector(space, source, p, None);
+    match space.hierarchy.children(receiver) {
         _ if levels == 0 => at(shape.centroid) * shape.area,
         None => {
-            let facet = hierarchy.facets[hierarchy.facet_of_leaf(receiver).index()];
-            let points = three_points(scene.facet_corners(facet));
+            let facet = space.hierarchy.facets[space.hierarchy.facet_of_leaf(receiver).index()];
+            let points = three_points(space.scene.facet_corners(facet));
             points.into_iter().map(at).sum::<Vec3>() * (shape.area / 3.0)
         }
         Some(children) => children
             .into_iter()
-            .map(|child| cluster_mean(scene, hierarchy, source, child, levels - 1))
+            .map(|child| cluster_mean(space, source, child, levels - 1))
             .sum(),
     }
 }
@@ -365,6 +415,7 @@ mod tests {
                     0.5 * cross.length(),
                     point,
                     Some(normal),
+                    0.0,
                 );
                 normal.dot(k)
             })

@@ -6,7 +6,7 @@
 
 use super::config::{SolveConfig, Technique};
 use super::element::{Element, Shape};
-use super::form_factor::{Arrival, arrival};
+use super::form_factor::{Arrival, Space, arrival};
 use super::observer::Observer;
 use super::oracle::{Decision, Oracle};
 use super::push_pull::local_children;
@@ -50,7 +50,6 @@ struct Pass<'a, const C: usize> {
     node_unshot: &'a [[f32; C]],
     owner_of_facet: &'a [u32],
     first_facets: &'a [u32],
-    power_before: &'a [f64],
     oracle: Oracle,
     technique: Technique,
     rays: u32,
@@ -95,7 +94,6 @@ pub fn run_pass<const C: usize>(
         node_unshot,
         owner_of_facet,
         first_facets,
-        power_before,
     } = light;
     let pass_data = Pass {
         context,
@@ -103,7 +101,6 @@ pub fn run_pass<const C: usize>(
         node_unshot,
         owner_of_facet,
         first_facets,
-        power_before,
         oracle: Oracle {
             threshold: config.epsilon * emitted,
             irradiance_tolerance: config.gradient * emitted / context.polygon_area,
@@ -303,8 +300,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     fn exchange(&mut self, source: &Source, receiver: &Receiver, greatest: f64) {
         let context = self.pass.context;
         let (unoccluded, residual) = arrival(
-            context.scene,
-            context.hierarchy,
+            &Space {
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                tau: context.tau,
+            },
             &source.element,
             &receiver.element,
         );
@@ -344,7 +344,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 scene: context.scene,
                 hierarchy: context.hierarchy,
                 normals: context.normals,
-                power_before: self.pass.power_before,
+                area_before: context.area_before,
+                radiosity: self.radiosity(source).iter().sum(),
                 shooters: self.pass.shooters,
                 owner_of_facet: self.pass.owner_of_facet,
                 first_facets: self.pass.first_facets,

@@ -96,8 +96,6 @@ pub struct Radiosity<const C: usize> {
     pub owner_of_facet: Vec<u32>,
     /// The first facet of each owner.
     pub first_facets: Vec<u32>,
-    /// Sums of the facets' unshot powers (all channels) before each facet, and of all at the end.
-    pub power_before: Vec<f64>,
 }
 
 impl<const C: usize> Radiosity<C> {
@@ -127,7 +125,6 @@ impl<const C: usize> Radiosity<C> {
                 .iter()
                 .map(|&root| hierarchy.node(root).first_facet)
                 .collect(),
-            power_before: vec![0.0; hierarchy.facets.len() + 1],
         };
         light.pull_nodes(hierarchy);
         light
@@ -143,13 +140,6 @@ impl<const C: usize> Radiosity<C> {
     /// Averages the facets' unshot radiosity up the hierarchy (paper: pull). Children stand behind
     /// their parents, so one walk from the back serves.
     pub fn pull_nodes(&mut self, hierarchy: &Hierarchy) {
-        for facet in 0..hierarchy.facets.len() {
-            let leaf = hierarchy.leaf_of_facet[facet];
-            let light = self.facet_unshot(FacetId::new(facet));
-            let radiosity: f64 = light.iter().map(|&x| f64::from(x)).sum();
-            self.power_before[facet + 1] =
-                self.power_before[facet] + radiosity * f64::from(hierarchy.shape(leaf).area);
-        }
         for index in (0..hierarchy.nodes.len()).rev() {
             let node = &hierarchy.nodes[index];
             self.node_unshot[index] = if node.kind == NodeKind::Facet {

@@ -1,8 +1,8 @@
-//! Elements as surfaces to sample: receivers uniformly by area, sources by what they have to shoot.
+//! Elements as surfaces to sample, uniformly by area.
 //!
 //! Light and visibility go together (the lit part of a floor is the part that is not under the
 //! furniture), so a visibility averaged over a source's area would be too low for its light. Source points
-//! are therefore drawn in proportion to the frozen unshot radiosity.
+//! therefore carry the frozen unshot radiosity at the point, over the source's mean.
 
 use super::element::{Element, Shape};
 use super::radiosity::Shooter;
@@ -32,6 +32,7 @@ impl Surface for ReceiverSurface<'_> {
             return SurfacePoint {
                 position: triangle_point(corners, u, v),
                 normal: self.element.normal,
+                light: 1.0,
             };
         }
         let (facet, rest) = choose_facet(self.element, self.area_before, u);
@@ -39,6 +40,7 @@ impl Surface for ReceiverSurface<'_> {
         SurfacePoint {
             position: triangle_point(corners, rest, v),
             normal: self.normals[facet],
+            light: 1.0,
         }
     }
 }
@@ -53,8 +55,10 @@ pub struct SourceSurface<'a, const C: usize> {
     pub hierarchy: &'a Hierarchy,
     /// Unit normals of the facets.
     pub normals: &'a [Vec3],
-    /// Sums of the unshot powers before each facet.
-    pub power_before: &'a [f64],
+    /// Sums of the areas before each facet.
+    pub area_before: &'a [f64],
+    /// Unshot radiosity of the element, sum of the channels; positive.
+    pub radiosity: f32,
     /// What every owner's patches have to shoot.
     pub shooters: &'a [Shooter<C>],
     /// Owner of each facet.
@@ -70,56 +74,38 @@ pub struct SourceSurface<'a, const C: usize> {
 impl<const C: usize> Surface for SourceSurface<'_, C> {
     fn point(&self, u: f32, v: f32) -> SurfacePoint {
         if let Shape::Triangle(corners) = self.element.shape {
-            return SurfacePoint {
-                position: self.patch_point(self.owner, self.slot, corners, u, v),
-                normal: self.element.normal,
-            };
+            return self.patch_point(self.owner, self.slot, corners, self.element.normal, [u, v]);
         }
-        let (facet, rest) = choose_facet(self.element, self.power_before, u);
+        let (facet, rest) = choose_facet(self.element, self.area_before, u);
         let owner = self.owner_of_facet[facet];
         let slot = facet as u32 - self.first_facets[owner as usize];
         let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
-        SurfacePoint {
-            position: self.patch_point(owner, slot, corners, rest, v),
-            normal: self.normals[facet],
-        }
+        self.patch_point(owner, slot, corners, self.normals[facet], [rest, v])
     }
 }
 
 impl<const C: usize> SourceSurface<'_, C> {
-    /// A point of a frozen patch, by power: down its split, choosing children with `u`.
+    /// A point of a frozen patch: down its split with `u`, whose four children have equal areas.
     fn patch_point(
         &self,
         owner: u32,
         slot: u32,
         mut corners: [Vec3; 3],
-        mut u: f32,
-        v: f32,
-    ) -> Vec3 {
+        normal: Vec3,
+        [mut u, v]: [f32; 2],
+    ) -> SurfacePoint {
         let shooter = &self.shooters[owner as usize];
         let mut slot = slot as usize;
-        loop {
-            let first = shooter.children[slot] as usize;
-            if first == 0 {
-                return triangle_point(corners, u, v);
-            }
-            let light: [f32; 4] =
-                std::array::from_fn(|k| shooter.unshot[first + k].iter().sum::<f32>());
-            let total: f32 = light.iter().sum();
-            let mut rest = u * total;
-            let mut which = 0;
-            while which < 3 && rest >= light[which] {
-                rest -= light[which];
-                which += 1;
-            }
-            // Rounding may choose a dark last child: then u is spread anew.
-            u = if light[which] > 0.0 {
-                (rest / light[which]).min(BELOW_ONE)
-            } else {
-                0.5
-            };
-            corners = split_triangle(corners, which as u32);
-            slot = first + which;
+        while shooter.children[slot] != 0 {
+            let which = ((4.0 * u) as u32).min(3);
+            u = 4.0 * u - which as f32;
+            corners = split_triangle(corners, which);
+            slot = (shooter.children[slot] + which) as usize;
+        }
+        SurfacePoint {
+            position: triangle_point(corners, u, v),
+            normal,
+            light: shooter.unshot[slot].iter().sum::<f32>() / self.radiosity,
         }
     }
 }

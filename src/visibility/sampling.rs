@@ -2,8 +2,9 @@
 //! one road for whatever is not proved).
 //!
 //! The visibility of an exchange is the mean of its samples' visibility weighted with the kernel
-//! cos cos / r^2, since it multiplies an unoccluded form factor. A sample whose kernel is not
-//! positive carries no light and casts no ray.
+//! cos cos / r^2, since it multiplies an unoccluded form factor, times the light at the source's
+//! point over the source's mean, since light and visibility go together: so it can exceed 1 where the bright
+//! part is the visible one. A sample whose kernel is not positive carries no light and casts no ray.
 //!
 //! No ray excludes a polygon by identity. It is trimmed where its depth below the plane of the
 //! sample at either end exceeds tau: t = tau / cos on both sides.
@@ -19,6 +20,8 @@ pub struct SurfacePoint {
     pub position: Vec3,
     /// Unit normal of its facet, on the facet's side.
     pub normal: Vec3,
+    /// Light that it sends, over its element's mean; 1 for receivers.
+    pub light: f32,
 }
 
 /// An element that can be sampled uniformly by area.
@@ -30,7 +33,8 @@ pub trait Surface {
 /// What the samples of an exchange said.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampledVisibility {
-    /// Weighted share of clear samples, in [0, 1]; 0 when no sample carries light.
+    /// What share of the unoccluded light arrives: 1 when every sample is clear, 0 when every one
+    /// is blocked or none carries light; else it may exceed 1.
     pub visibility: f32,
     /// Rays cast.
     pub rays: u32,
@@ -77,7 +81,7 @@ pub fn sample_visibility(
                 let Some(segment) = trim(from, to, tau) else {
                     continue;
                 };
-                *weight = segment.weight;
+                *weight = segment.weight * from.light;
                 total_weight += segment.weight;
                 if segment.near < segment.far {
                     packet.set(
