@@ -110,7 +110,7 @@ impl Default for SolveConfig {
     fn default() -> Self {
         Self {
             technique: Technique::Normal,
-            epsilon: 1.0e-6,
+            epsilon: 1.0e-5,
             gradient: 5.0e-3,
             rays: 8,
             stop: Stop::Converged(1.0e-3),

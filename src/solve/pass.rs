@@ -17,7 +17,7 @@ use crate::cluster::{Hierarchy, NodeKind};
 use crate::embree::CommittedScene;
 use crate::math::{NodeId, hash_u64};
 use crate::scene::Scene;
-use crate::visibility::sample_visibility;
+use crate::visibility::{SampledVisibility, sample_visibility};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -311,33 +311,46 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         if unoccluded.is_zero() {
             return;
         }
-        let oracle = &self.pass.oracle;
+        let oracle = self.pass.oracle;
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
             return self.split_receiver(source, receiver);
         }
-        self.outcome.statistics.exchanges += 1;
-        let visibility = self.visibility(source, &receiver.element);
+        let visibility = match self.pass.technique {
+            Technique::Unoccluded => {
+                self.outcome.statistics.exchanges += 1;
+                1.0
+            }
+            Technique::Normal => {
+                let sampled = self.sample(source, &receiver.element);
+                self.outcome.statistics.rays += u64::from(sampled.rays);
+                self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
+                if !(sampled.all_blocked || sampled.all_clear) {
+                    let decision =
+                        oracle.decide_partial(&source.element, &receiver.element, greatest);
+                    match decision {
+                        Decision::SplitSource => return self.split_source(source, receiver),
+                        Decision::SplitReceiver => return self.split_receiver(source, receiver),
+                        _ => {}
+                    }
+                }
+                let statistics = &mut self.outcome.statistics;
+                statistics.exchanges += 1;
+                statistics.exchanges_blocked += u64::from(sampled.all_blocked);
+                statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
+                sampled.visibility
+            }
+        };
         if visibility > 0.0 {
             let radiosity = self.radiosity(source).map(f64::from);
-            self.deposit(
-                receiver,
-                unoccluded,
-                radiosity.map(|b| b * f64::from(visibility)),
-            );
+            let light = radiosity.map(|b| b * f64::from(visibility));
+            self.deposit(receiver, unoccluded, light);
         }
     }
 
-    fn visibility(&mut self, source: &Source, receiver: &Element) -> f32 {
-        match self.pass.technique {
-            Technique::Unoccluded => 1.0,
-            Technique::Normal => self.sample(source, receiver),
-        }
-    }
-
-    fn sample(&mut self, source: &Source, receiver: &Element) -> f32 {
+    fn sample(&self, source: &Source, receiver: &Element) -> SampledVisibility {
         let context = self.pass.context;
         let key = exchange_key(self.pass.key, &source.element, receiver);
-        let sampled = sample_visibility(
+        sample_visibility(
             context.embree,
             &SourceSurface {
                 element: &source.element,
@@ -362,13 +375,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             self.pass.rays,
             key,
             self.pass.oracle.tau,
-        );
-        let statistics = &mut self.outcome.statistics;
-        statistics.rays += u64::from(sampled.rays);
-        statistics.rays_blocked += u64::from(sampled.rays_blocked);
-        statistics.exchanges_blocked += u64::from(sampled.all_blocked);
-        statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
-        sampled.visibility
+        )
     }
 
     fn deposit(&mut self, receiver: &Receiver, unoccluded: Arrival, light: [f64; C]) {

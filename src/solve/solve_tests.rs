@@ -1,9 +1,12 @@
-//! Whole solves with known answers on scenes built by hand.
+//! Whole solves with known answers on scenes built by hand. The built-in scenes with closed forms are
+//! solved in `tests/closed_forms`.
 
 use super::config::{SolveConfig, Stop, Technique};
 use super::fixture::{add_box, add_plate, grey, prepare, scene};
-use super::observer::Silent;
+use super::observer::{Observer, Silent};
 use super::solve::{Solved, solve};
+use super::{PatchPath, SolveError};
+use crate::math::FacetId;
 use crate::scene::Scene;
 use glam::Vec3;
 use std::f64::consts::PI;
@@ -15,74 +18,191 @@ fn run(scene: &Scene, config: &SolveConfig) -> Solved {
 
 fn furnace(cells: u32, reflectance: f64, with_block: bool) -> Scene {
     let mut s = scene(vec![grey(reflectance, 1.0)]);
-    add_box(
-        &mut s,
-        Vec3::splat(-0.5),
-        Vec3::splat(0.5),
-        cells,
-        [0; 6],
-        true,
-    );
+    let half = Vec3::splat(0.5);
+    add_box(&mut s, -half, half, cells, [0; 6], true);
     if with_block {
-        add_box(
-            &mut s,
-            Vec3::new(-0.2, -0.3, -0.4),
-            Vec3::new(0.1, 0.2, 0.1),
-            cells,
-            [0; 6],
-            false,
-        );
+        let (lo, hi) = (Vec3::new(-0.2, -0.3, -0.4), Vec3::new(0.1, 0.2, 0.1));
+        add_box(&mut s, lo, hi, cells, [0; 6], false);
     }
     s
 }
 
-#[test]
-fn furnace_has_the_same_radiosity_everywhere() {
-    for (epsilon, gradient) in [
-        (1e-5, 1e9),
-        (1e-6, 1e9),
-        (1e-6, 5e-3),
-        (1e-6, 1e-3),
-        (1e-6, 1e-4),
-    ] {
-        for (cells, reflectance, block) in [(1, 0.5, false)] {
-            let s = furnace(cells, reflectance, block);
-            let start = std::time::Instant::now();
-            let solved = run(
-                &s,
-                &SolveConfig {
-                    stop: Stop::Converged(1e-5),
-                    epsilon,
-                    gradient,
-                    ..SolveConfig::default()
-                },
-            );
-            let want = PI / (1.0 - reflectance);
-            let worst = solved
-                .solution
-                .patches
-                .iter()
-                .map(|p| (f64::from(p.radiosity[0]) / want - 1.0).abs())
-                .fold(0.0, f64::max);
-            let mean = solved.power.imbalance;
-            let (mut rms, mut area) = (0.0, 0.0);
-            for f in 0..solved.solution.facets.len() {
-                for p in solved.solution.facet_patches(crate::math::FacetId::new(f)) {
-                    let a = s.polygon_area(solved.solution.facets[f].polygon)
-                        * 0.25f64.powi(p.path.level() as i32);
-                    rms += a * (f64::from(p.radiosity[0]) / want - 1.0).powi(2);
-                    area += a;
-                }
-            }
-            let rms = (rms / area).sqrt();
-            eprintln!(
-                "eps {epsilon} grad {gradient} cells {cells} rho {reflectance} block {block}: worst {worst:.5} rms {rms:.5} imbalance {mean:.5} leaves {} passes {} exchanges {} rays {} {:.2}s",
-                solved.leaves,
-                solved.passes.len(),
-                solved.passes[0].exchanges,
-                solved.passes[0].rays,
-                start.elapsed().as_secs_f64()
-            );
+/// Area-weighted relative RMS of radiosity about `want`.
+fn rms(scene: &Scene, solved: &Solved, want: f64) -> f64 {
+    let (mut sum, mut area) = (0.0, 0.0);
+    for (f, facet) in solved.solution.facets.iter().enumerate() {
+        for patch in solved.solution.facet_patches(FacetId::new(f)) {
+            let part = scene.polygon_area(facet.polygon) * 0.25f64.powi(patch.path.level() as i32);
+            sum += part * (f64::from(patch.radiosity[0]) / want - 1.0).powi(2);
+            area += part;
         }
     }
+    (sum / area).sqrt()
+}
+
+#[test]
+fn a_furnace_has_the_same_radiosity_everywhere() {
+    for (cells, reflectance, block) in [(1, 0.5, false), (3, 0.5, true), (1, 0.8, false)] {
+        let s = furnace(cells, reflectance, block);
+        let solved = run(&s, &SolveConfig::default());
+        let error = rms(&s, &solved, PI / (1.0 - reflectance));
+        // The unshot power at convergence is missing from the radiosity: 1e-3 of what was emitted.
+        assert!(error < 0.015, "cells {cells} rho {reflectance}: {error}");
+        let imbalance = solved.power.imbalance.abs();
+        assert!(
+            imbalance < 2.0e-3,
+            "cells {cells} rho {reflectance}: {imbalance}"
+        );
+    }
+}
+
+#[test]
+fn a_sheet_does_not_light_its_own_back() {
+    // A slanting two-sided sheet in a black room: its bright front's light must not reach its back, though
+    // their boxes reach through each other's planes.
+    let mut s = scene(vec![grey(0.0, 0.0), grey(0.0, 1.0)]);
+    add_box(&mut s, Vec3::splat(-0.5), Vec3::splat(0.5), 1, [0; 6], true);
+    let (u, v) = (Vec3::new(0.3, 0.21, 0.1), Vec3::new(-0.1, 0.3, 0.27));
+    let corner = Vec3::new(-0.11, -0.23, -0.17);
+    add_plate(&mut s, corner, u, v, 2, 1);
+    add_plate(&mut s, corner, v, u, 2, 0);
+    let solved = run(&s, &SolveConfig::default());
+    assert!(solved.power.imbalance.abs() < 1.0e-3, "{:?}", solved.power);
+    let mut backs = 0;
+    for (f, facet) in solved.solution.facets.iter().enumerate() {
+        if facet.polygon.index() >= s.polygons.len() - 8 {
+            backs += 1;
+            for patch in solved.solution.facet_patches(FacetId::new(f)) {
+                assert_eq!(patch.irradiance, [0.0; 3]);
+            }
+        }
+    }
+    assert_eq!(backs, 8);
+}
+
+#[test]
+fn the_result_has_the_same_bits_at_any_number_of_threads() {
+    let mut s = furnace(2, 0.5, true);
+    s.surfaces.push(crate::scene::Surface {
+        material: "red".to_owned(),
+        reflectance: [0.8, 0.3, 0.1],
+        emission: [0.0; 3],
+    });
+    for polygon in s.polygons.iter_mut().skip(5).step_by(3) {
+        polygon.surface = 1;
+    }
+    let (hierarchy, embree) = prepare(&s);
+    let config = SolveConfig {
+        stop: Stop::Passes(3),
+        epsilon: 1.0e-4,
+        ..SolveConfig::default()
+    };
+    let at = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads start")
+            .install(|| solve(&s, &hierarchy, &embree, &config, &Silent).expect("solves"))
+    };
+    let one = at(1);
+    assert!(one.passes[2].rays_blocked > 0, "something must be sampled");
+    for threads in [2, 3] {
+        let other = at(threads);
+        assert_eq!(one.solution.patches, other.solution.patches);
+        assert_eq!(one.power, other.power);
+        for (a, b) in one.passes.iter().zip(&other.passes) {
+            let seconds = b.seconds;
+            assert_eq!(super::PassStatistics { seconds, ..*a }, *b);
+        }
+    }
+}
+
+#[test]
+fn unoccluded_light_goes_through_walls() {
+    let s = furnace(1, 0.0, true);
+    let with = |technique| {
+        let config = SolveConfig {
+            technique,
+            stop: Stop::Passes(1),
+            ..SolveConfig::default()
+        };
+        run(&s, &config)
+    };
+    let (normal, unoccluded) = (with(Technique::Normal), with(Technique::Unoccluded));
+    assert_eq!(unoccluded.passes[0].rays, 0);
+    // Walls behind the block count twice.
+    assert!(unoccluded.power.imbalance < -0.05, "{:?}", unoccluded.power);
+    assert!(normal.power.imbalance.abs() < 1.0e-3);
+}
+
+#[test]
+fn an_interrupted_solve_says_so() {
+    struct Stopper;
+    impl Observer for Stopper {
+        fn interrupted(&self) -> bool {
+            true
+        }
+    }
+    let s = furnace(2, 0.5, true);
+    let (hierarchy, embree) = prepare(&s);
+    let outcome = solve(&s, &hierarchy, &embree, &SolveConfig::default(), &Stopper);
+    assert_eq!(
+        outcome.err(),
+        Some(SolveError::Interrupted {
+            pass: 1,
+            completed: 0
+        })
+    );
+}
+
+#[test]
+fn settings_out_of_range_are_refused_by_their_flag() {
+    let refused = |config: SolveConfig| config.validate().expect_err("refused").flag;
+    let good = SolveConfig::default();
+    for epsilon in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(
+            refused(SolveConfig {
+                epsilon,
+                ..good.clone()
+            }),
+            "--epsilon"
+        );
+    }
+    assert_eq!(
+        refused(SolveConfig {
+            rays: 0,
+            ..good.clone()
+        }),
+        "--rays"
+    );
+    let stop = Stop::Passes(0);
+    assert_eq!(
+        refused(SolveConfig {
+            stop,
+            ..good.clone()
+        }),
+        "--passes"
+    );
+    let stop = Stop::Converged(f64::NAN);
+    assert_eq!(
+        refused(SolveConfig {
+            stop,
+            ..good.clone()
+        }),
+        "--converge"
+    );
+    let min_area = -1.0;
+    assert_eq!(
+        refused(SolveConfig {
+            min_area,
+            ..good.clone()
+        }),
+        "--min-area"
+    );
+    assert!(good.validate().is_ok());
+}
+
+#[test]
+fn patch_paths_name_their_steps() {
+    let path = PatchPath::ROOT.child(3).child(0).child(2);
+    assert_eq!(path.level(), 3);
+    assert_eq!(path.steps().collect::<Vec<_>>(), [3, 0, 2]);
 }
