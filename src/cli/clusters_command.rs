@@ -2,8 +2,8 @@
 
 use super::args::ClustersCommand;
 use super::error::CliError;
-use super::run::Session;
 use super::scene_source::load_scene;
+use super::session::Session;
 use crate::embree::DeviceConfig;
 use crate::output::write_cluster_ply;
 use crate::solve::{PreparedScene, SolveConfig};

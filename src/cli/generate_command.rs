@@ -3,7 +3,7 @@
 use super::args::GenerateCommand;
 use super::error::CliError;
 use super::render::make_folder;
-use super::run::Session;
+use super::session::Session;
 use crate::output::{OutputError, write_atomically};
 use crate::scene::generate::{catalogue, generate};
 use std::io::Write;

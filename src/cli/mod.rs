@@ -9,6 +9,7 @@ mod progress;
 mod render;
 mod run;
 mod scene_source;
+mod session;
 mod solve_args;
 mod solve_command;
 mod summary;

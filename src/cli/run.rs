@@ -2,21 +2,10 @@
 
 use super::args::{Cli, Command};
 use super::error::CliError;
+use super::session::Session;
 use super::{clusters_command, generate_command, interrupt, solve_command, view_command};
 use clap::Parser;
 use std::ffi::OsString;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
-/// What every command is given beside its own arguments.
-pub struct Session {
-    /// No progress, no summary.
-    pub quiet: bool,
-    /// The words of the command line, for the records.
-    pub words: Vec<String>,
-    /// Raised by Ctrl-C.
-    pub interrupted: Arc<AtomicBool>,
-}
 
 /// Runs the program on its arguments, the program's name first.
 ///

@@ -4,8 +4,8 @@ use super::args::SolveCommand;
 use super::error::CliError;
 use super::progress::Progress;
 use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
-use super::run::Session;
 use super::scene_source::load_scene;
+use super::session::Session;
 use super::summary::print_summary;
 use crate::embree::DeviceConfig;
 use crate::output::{

@@ -3,7 +3,7 @@
 use super::args::ViewCommand;
 use super::error::CliError;
 use super::render::{render, write_picture};
-use super::run::Session;
+use super::session::Session;
 use crate::output::{Camera, Shading, View, ViewConfig, read_ply};
 use glam::DVec3;
 

@@ -21,7 +21,7 @@ use pulp::{Arch, Simd, WithSimd};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WalkLimits {
     /// Stop at this many leaves that hold a polygon in the way (at least 1). More than 1 makes the
-    /// list that is handed down sharper, for [`super::BlockerList`].
+    /// list that is handed down sharper, for [`BlockerList`](super::BlockerList).
     pub blocking_leaves: u32,
     /// Stop after this many nodes and leaves.
     pub nodes: u32,
