@@ -154,6 +154,11 @@ impl Element {
         FacetId(self.first_facet)
     }
 
+    /// The facets covered.
+    pub fn facet_range(&self) -> std::ops::Range<usize> {
+        self.first_facet as usize..(self.first_facet + self.facet_count) as usize
+    }
+
     /// True for facets and patches.
     pub fn is_triangle(&self) -> bool {
         matches!(self.shape, Shape::Triangle(_))

@@ -116,12 +116,32 @@ pub struct Space<'a> {
     pub scene: &'a Scene,
     /// Its hierarchy.
     pub hierarchy: &'a Hierarchy,
+    /// Unit normal of each facet.
+    pub normals: &'a [Vec3],
+    /// Sum of the areas before each facet, and of all.
+    pub area_before: &'a [f64],
     /// Depth below a surface within which nothing counts, normalised.
     pub tau: f32,
 }
 
+/// Whether one vector stands for the normals of each end (always for triangles); where not, every
+/// facet is asked.
+#[derive(Clone, Copy)]
+pub struct Flatness {
+    /// Of the source.
+    pub source: bool,
+    /// Of the receiver.
+    pub receiver: bool,
+}
+
 /// The vector K of a unit-radiosity element at a point. A cluster must face the point fully.
-fn element_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+fn element_vector(
+    space: &Space,
+    source: &Element,
+    point: Vec3,
+    normal: Option<Vec3>,
+    flat: bool,
+) -> Vec3 {
     match source.shape {
         Shape::Triangle(corners) => triangle_vector(
             corners,
@@ -131,15 +151,32 @@ fn element_vector(space: &Space, source: &Element, point: Vec3, normal: Option<V
             normal,
             space.tau,
         ),
-        Shape::Cluster => cluster_vector(space, source.node, point, normal),
+        Shape::Cluster if flat => cluster_vector(space, source.node, point, normal),
+        Shape::Cluster => wide_vector(space, source, point, normal),
         Shape::Volume => Vec3::ZERO,
     }
+}
+
+/// The vector K of a unit-radiosity cluster of any shape, seen from far away: every facet that faces the point
+/// counts, as if it stood at the centroid. What hides behind other facets is left to visibility.
+fn wide_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
+    let rel = source.centroid - point;
+    if normal.is_some_and(|n| n.dot(rel) <= 0.0) {
+        return Vec3::ZERO;
+    }
+    let inverse = 1.0 / rel.length_squared();
+    let mut flux = 0.0f32;
+    for facet in source.facet_range() {
+        let area = (space.area_before[facet + 1] - space.area_before[facet]) as f32;
+        flux += area * (-space.normals[facet].dot(rel)).max(0.0);
+    }
+    rel * (flux * inverse * inverse * FRAC_1_PI)
 }
 
 fn cluster_vector(space: &Space, id: NodeId, point: Vec3, normal: Option<Vec3>) -> Vec3 {
     let Some(children) = space.hierarchy.children(id) else {
         let leaf = Element::of_node(space.scene, space.hierarchy, id);
-        return element_vector(space, &leaf, point, normal);
+        return element_vector(space, &leaf, point, normal, true);
     };
     let node = space.hierarchy.node(id);
     let shape = space.hierarchy.shape(id);
@@ -167,8 +204,11 @@ fn cluster_vector(space: &Space, id: NodeId, point: Vec3, normal: Option<Vec3>) 
 pub enum Arrival {
     /// On a triangle: the linear function that fits best, by its values at the three corners.
     Linear([f32; 3]),
-    /// On a cluster: the mean irradiance vector, to be dotted with each facet's normal.
+    /// On a flat cluster: the mean irradiance vector, to be dotted with each facet's normal.
     Vector(Vec3),
+    /// On a cluster of any shape: the irradiance vector at its centroid, whose dot product with each
+    /// facet's normal counts where it is positive.
+    Field(Vec3),
 }
 
 impl Arrival {
@@ -176,7 +216,7 @@ impl Arrival {
     pub fn is_zero(&self) -> bool {
         match *self {
             Self::Linear(e) => e == [0.0; 3],
-            Self::Vector(v) => v == Vec3::ZERO,
+            Self::Vector(v) | Self::Field(v) => v == Vec3::ZERO,
         }
     }
 }
@@ -187,12 +227,20 @@ impl Arrival {
 /// The number of receiver points grows towards contact, by the gap between the boxes over the
 /// receiver's radius: 1, 3, 12 or 48 points. Form factors at contact are thereby integrated and
 /// not guessed from the centres.
-pub fn arrival(space: &Space, source: &Element, receiver: &Element) -> (Arrival, f32) {
+pub fn arrival(
+    space: &Space,
+    source: &Element,
+    receiver: &Element,
+    flatness: Flatness,
+) -> (Arrival, f32) {
     let gap = source.bounds.distance(receiver.bounds);
     match receiver.shape {
         Shape::Triangle(corners) => {
             let n = receiver.normal;
-            let at = |p: Vec3| n.dot(element_vector(space, source, p, Some(n))).max(0.0);
+            let at = |p: Vec3| {
+                n.dot(element_vector(space, source, p, Some(n), flatness.source))
+                    .max(0.0)
+            };
             if gap > 10.0 * receiver.radius {
                 return (Arrival::Linear([at(receiver.centroid); 3]), 0.0);
             }
@@ -237,10 +285,15 @@ pub fn arrival(space: &Space, source: &Element, receiver: &Element) -> (Arrival,
             };
             (Arrival::Linear((fit * scale).to_array()), residual)
         }
+        Shape::Cluster if !flatness.receiver => {
+            let at = receiver.centroid;
+            let vector = element_vector(space, source, at, None, flatness.source);
+            (Arrival::Field(vector), 0.0)
+        }
         Shape::Cluster => {
             // Levels below the cluster whose centroids are the points: one, or up to eight.
             let levels = if gap > 10.0 * receiver.radius { 0 } else { 3 };
-            let sum = cluster_mean(space, source, receiver.node, levels);
+            let sum = cluster_mean(space, source, receiver.node, levels, flatness.source);
             (Arrival::Vector(sum / receiver.area), 0.0)
         }
         Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
@@ -352,9 +405,15 @@ fn three_points([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
 }
 
 /// Area times mean irradiance vector of a receiving cluster, from the nodes `levels` below.
-fn cluster_mean(space: &Space, source: &Element, receiver: NodeId, levels: u32) -> Vec3 {
+fn cluster_mean(
+    space: &Space,
+    source: &Element,
+    receiver: NodeId,
+    levels: u32,
+    flat: bool,
+) -> Vec3 {
     let shape = space.hierarchy.shape(receiver);
-    let at = |p: Vec3| element_vector(space, source, p, None);
+    let at = |p: Vec3| element_vector(space, source, p, None, flat);
     match space.hierarchy.children(receiver) {
         _ if levels == 0 => at(shape.centroid) * shape.area,
         None => {
@@ -364,7 +423,7 @@ fn cluster_mean(space: &Space, source: &Element, receiver: NodeId, levels: u32) 
         }
         Some(children) => children
             .into_iter()
-            .map(|child| cluster_mean(space, source, child, levels - 1))
+            .map(|child| cluster_mean(space, source, child, levels - 1, flat))
             .sum(),
     }
 }

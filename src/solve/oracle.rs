@@ -40,6 +40,9 @@ pub struct Oracle {
 const CLUSTER_CONE_COS: f32 = 0.939_692_6;
 /// Gap, in radii of a cluster, from which it may stand as one: nearer, its outline matters.
 const CLUSTER_GAP: f32 = 2.0;
+/// Gap, in radii, from which a cluster of any shape may exchange facet by facet with the other end seen
+/// from its centroid: the directions then differ by less than a quarter of a radian.
+const WIDE_GAP: f32 = 4.0;
 /// Share of the threshold below which a pair with a non-exchanging end may be dropped (design,
 /// section 6): a thousand dropped pairs are worth one exchange.
 const DROP_SHARE: f64 = 1.0e-3;
@@ -122,17 +125,22 @@ impl Oracle {
         }
     }
 
-    /// True when energy may be exchanged at `element` with `other` as the other end.
+    /// True when energy may be exchanged at `element` with `other` as the other end: any triangle, and a
+    /// cluster that is far enough for its outline not to matter.
     fn exchanges(&self, element: &Element, other: &Element) -> bool {
         match element.shape {
             Shape::Triangle(_) => true,
             Shape::Volume => false,
             Shape::Cluster => {
-                element.cone_cos >= CLUSTER_CONE_COS
-                    && element.bounds.distance(other.bounds) > CLUSTER_GAP * element.radius
-                    && element.faces_fully(other, self.tau)
+                let radii = element.bounds.distance(other.bounds) / element.radius;
+                radii > WIDE_GAP || (radii > CLUSTER_GAP && self.is_flat_towards(element, other))
             }
         }
+    }
+
+    /// True when one vector stands for a cluster's normals: a narrow cone, and all of `other` in front.
+    pub fn is_flat_towards(&self, element: &Element, other: &Element) -> bool {
+        element.cone_cos >= CLUSTER_CONE_COS && element.faces_fully(other, self.tau)
     }
 
     fn can_split(&self, element: &Element) -> bool {

@@ -6,7 +6,7 @@
 
 use super::config::{SolveConfig, Technique};
 use super::element::{Element, Shape};
-use super::form_factor::{Arrival, Space, arrival};
+use super::form_factor::{Arrival, Flatness, Space, arrival};
 use super::observer::Observer;
 use super::oracle::{Decision, Oracle};
 use super::push_pull::local_children;
@@ -299,19 +299,25 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     /// Transfers energy: radiosity x form factor x visibility.
     fn exchange(&mut self, source: &Source, receiver: &Receiver, greatest: f64) {
         let context = self.pass.context;
+        let oracle = self.pass.oracle;
         let (unoccluded, residual) = arrival(
             &Space {
                 scene: context.scene,
                 hierarchy: context.hierarchy,
+                normals: context.normals,
+                area_before: context.area_before,
                 tau: context.tau,
             },
             &source.element,
             &receiver.element,
+            Flatness {
+                source: oracle.is_flat_towards(&source.element, &receiver.element),
+                receiver: oracle.is_flat_towards(&receiver.element, &source.element),
+            },
         );
         if unoccluded.is_zero() {
             return;
         }
-        let oracle = self.pass.oracle;
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
             return self.split_receiver(source, receiver);
         }
@@ -386,6 +392,17 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 for (corner, value) in self.gatherer.gathered[at].iter_mut().zip(irradiance) {
                     for (sum, b) in corner.iter_mut().zip(light) {
                         *sum += b * f64::from(value);
+                    }
+                }
+            }
+            Arrival::Field(vector) => {
+                let first = self.gatherer.first_facet as usize;
+                for facet in receiver.element.facet_range() {
+                    let irradiance = self.pass.context.normals[facet].dot(vector).max(0.0);
+                    for corner in &mut self.gatherer.gathered[facet - first] {
+                        for (sum, b) in corner.iter_mut().zip(light) {
+                            *sum += b * f64::from(irradiance);
+                        }
                     }
                 }
             }
