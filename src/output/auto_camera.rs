@@ -22,6 +22,9 @@ const EYE_POINTS: usize = 128;
 /// Where between a surface and what faces it an eye is tried.
 const EYE_PLACES: [f64; 3] = [0.12, 0.5, 0.88];
 
+/// How far an eye may go towards a side where nothing stands: up to the bounds.
+const OPEN_PLACE: f64 = 0.99;
+
 /// Nearest thing that an eye may have beside it, as a share of the mean distance around it.
 const CLEARANCE: f64 = 0.1;
 
@@ -43,12 +46,20 @@ const FINALISTS: usize = 96;
 const LOOK: [usize; 2] = [16, 10];
 
 /// What is nearer than this share of the seen space's size (the root of its area) stands in the way.
-const TOO_NEAR: f64 = 0.12;
+const TOO_NEAR: f64 = 0.18;
 
 /// A point on lit surface, in the units of the rays.
 struct SurfacePoint {
     position: DVec3,
     normal: DVec3,
+}
+
+/// The free way from a point in a direction.
+#[derive(Clone, Copy)]
+struct Free {
+    length: f64,
+    /// Nothing stands at its end: the scene's bounds do.
+    open: bool,
 }
 
 /// An eye, a direction (horizontal part of length 1) and the share of the points seen in the frame.
@@ -227,7 +238,12 @@ impl View<'_> {
                 continue;
             };
             for place in EYE_PLACES {
-                let eye = start + point.normal * (free * place);
+                let place = if free.open && place == EYE_PLACES[2] {
+                    OPEN_PLACE
+                } else {
+                    place
+                };
+                let eye = start + point.normal * (free.length * place);
                 eyes.extend(
                     self.off_walls(eye, up, bounds)
                         .and_then(|eye| self.at_height(eye, up, bounds))
@@ -243,31 +259,34 @@ impl View<'_> {
         for axis in [DVec3::X, up.cross(DVec3::X)] {
             let ahead = self.free_length(eye, axis, bounds)?;
             let behind = self.free_length(eye, -axis, bounds)?;
-            let place = behind / (ahead + behind);
-            let wanted = place.clamp(EYE_PLACES[0], EYE_PLACES[2]);
-            eye += axis * ((wanted - place) * (ahead + behind));
+            let limit = |free: Free| if free.open { OPEN_PLACE } else { EYE_PLACES[2] };
+            let whole = ahead.length + behind.length;
+            let place = behind.length / whole;
+            let wanted = place.clamp(1.0 - limit(behind), limit(ahead));
+            eye += axis * ((wanted - place) * whole);
         }
         Some(eye)
     }
 
     /// The eye moved up or down to [`EYE_HEIGHT`].
     fn at_height(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
-        let above = self.free_length(eye, up, bounds)?;
-        let below = self.free_length(eye, -up, bounds)?;
+        let above = self.free_length(eye, up, bounds)?.length;
+        let below = self.free_length(eye, -up, bounds)?.length;
         Some(eye + up * (EYE_HEIGHT * (above + below) - below))
     }
 
     /// True when nothing stands close to the eye at its own height.
     fn clear_around(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> bool {
-        let lengths: Vec<f64> = (0..AZIMUTHS)
-            .map(|azimuth| {
+        let around: Vec<Free> = (0..AZIMUTHS)
+            .filter_map(|azimuth| {
                 let angle = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
                 let direction = DVec3::X * angle.cos() + up.cross(DVec3::X) * angle.sin();
-                self.free_length(eye, direction, bounds).unwrap_or(0.0)
+                self.free_length(eye, direction, bounds)
             })
             .collect();
-        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-        lengths.iter().all(|&length| length >= CLEARANCE * mean)
+        let mean = around.iter().map(|free| free.length).sum::<f64>() / AZIMUTHS as f64;
+        around.len() == AZIMUTHS
+            && (around.iter()).all(|free| free.open || free.length >= CLEARANCE * mean)
     }
 
     /// How far a ray goes before it meets something, or leaves the scene's bounds; `None` where
@@ -277,7 +296,7 @@ impl View<'_> {
         from: DVec3,
         direction: DVec3,
         (least, greatest): (DVec3, DVec3),
-    ) -> Option<f64> {
+    ) -> Option<Free> {
         let leaves = (0..3)
             .map(|axis| match direction[axis] {
                 d if d > 0.0 => (greatest[axis] - from[axis]) / d,
@@ -287,8 +306,17 @@ impl View<'_> {
             .fold(f64::INFINITY, f64::min);
         let mut hits = Vec::with_capacity(1);
         self.embree.closest_hits(&[ray(from, direction)], &mut hits);
-        let length = hits[0].map_or(leaves, |hit| f64::from(hit.t).min(leaves));
-        (length.is_finite() && length > 1e-3).then_some(length)
+        let free = hits[0].map_or(
+            Free {
+                length: leaves,
+                open: true,
+            },
+            |hit| Free {
+                length: f64::from(hit.t).min(leaves),
+                open: false,
+            },
+        );
+        (free.length.is_finite() && free.length > 1e-3).then_some(free)
     }
 
     /// The best direction of each slope from an eye.
