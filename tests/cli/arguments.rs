@@ -74,7 +74,7 @@ fn settings_out_of_range_end_with_two_and_name_the_flag() {
         ("--threads", "1000000 18446744073709551615"),
     ] {
         for value in values.split_whitespace() {
-            let line = format!("solve room.obj --out x {flag} {value}");
+            let line = format!("solve room.obj --out x {flag}={value}");
             folder.line(&line).ends_with(2, &line).says(&[flag]);
         }
     }
