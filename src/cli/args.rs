@@ -96,7 +96,7 @@ pub struct ViewCommand {
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     pub up: Option<[f64; 3]>,
     /// Vertical angle of view in degrees.
-    #[arg(long, value_name = "DEG")]
+    #[arg(long, value_name = "DEG", value_parser = parse_finite, allow_negative_numbers = true)]
     pub fov: Option<f64>,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "960x720")]
@@ -106,6 +106,7 @@ pub struct ViewCommand {
         long,
         value_name = "EV",
         default_value_t = 0.0,
+        value_parser = parse_finite,
         allow_negative_numbers = true
     )]
     pub exposure: f64,
@@ -127,6 +128,14 @@ pub struct PictureSize(pub [u32; 2]);
 
 /// Greatest width or height: 16 k pictures hold 5 GB of layers.
 const GREATEST_SIDE: u32 = 16_384;
+
+fn parse_finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        Ok(_) => Err("a finite number is needed".to_owned()),
+        Err(e) => Err(e.to_string()),
+    }
+}
 
 fn parse_vector(text: &str) -> Result<[f64; 3], String> {
     let numbers: Vec<f64> = text

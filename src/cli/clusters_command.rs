@@ -24,8 +24,9 @@ pub fn run(session: &Session, command: &ClustersCommand) -> Result<(), CliError>
         command.count as usize,
         &session.interrupted,
     )?;
-    if !session.quiet {
-        println!("wrote {}: {shown} clusters", command.out.display());
-    }
+    session.say(format_args!(
+        "wrote {}: {shown} clusters",
+        command.out.display()
+    ));
     Ok(())
 }

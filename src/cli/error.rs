@@ -31,6 +31,9 @@ pub enum CliError {
     /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The solution to work on is missing or is none.
+    #[error(transparent)]
+    Solution(OutputError),
     /// The camera sees nothing.
     #[error(transparent)]
     Camera(#[from] CameraError),
@@ -54,6 +57,7 @@ impl CliError {
             | Self::UnknownScene(_)
             | Self::Config(_)
             | Self::Camera(_)
+            | Self::Solution(_)
             | Self::Argument(_)
             | Self::Solve(SolveError::Config(_)) => 2,
             Self::Interrupted

@@ -3,7 +3,7 @@
 use super::args::GenerateCommand;
 use super::error::CliError;
 use super::render::make_folder;
-use super::session::Session;
+use super::session::{Session, print_line};
 use crate::output::{OutputError, write_atomically};
 use crate::scene::generate::{catalogue, generate};
 use std::io::Write;
@@ -12,7 +12,7 @@ use std::io::Write;
 pub fn run(session: &Session, command: &GenerateCommand) -> Result<(), CliError> {
     let (Some(name), Some(out)) = (&command.name, &command.out) else {
         for entry in catalogue() {
-            println!("{:<24} {}", entry.name, entry.description);
+            print_line(format_args!("{:<24} {}", entry.name, entry.description));
         }
         return Ok(());
     };
@@ -24,9 +24,7 @@ pub fn run(session: &Session, command: &GenerateCommand) -> Result<(), CliError>
             w.write_all(text.as_bytes())
                 .map_err(|e| OutputError::io("write", &path, e))
         })?;
-        if !session.quiet {
-            println!("{}", path.display());
-        }
+        session.say(format_args!("{}", path.display()));
     }
     Ok(())
 }

@@ -25,25 +25,45 @@ pub fn render(
         .ok_or(CliError::Interrupted)
 }
 
-/// Writes a picture by the ending of its name: EXR with all layers, or PNG tone-mapped and `stops` brighter.
+/// How a picture is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// All layers.
+    Exr,
+    /// Tone-mapped.
+    Png,
+}
+
+impl PictureFormat {
+    /// The format that the ending of a name asks for.
+    ///
+    /// # Errors
+    /// [`CliError::Argument`] for any other ending.
+    pub fn of(path: &Path) -> Result<Self, CliError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("exr") => Ok(Self::Exr),
+            Some("png") => Ok(Self::Png),
+            _ => Err(CliError::Argument(format!(
+                "--out {}: a picture's name ends in .exr or .png",
+                path.display()
+            ))),
+        }
+    }
+}
+
+/// Writes a picture by the ending of its name; a PNG `stops` brighter than its automatic exposure.
 pub fn write_picture(
     path: &Path,
     picture: &Picture,
     stops: f64,
     interrupted: &AtomicBool,
 ) -> Result<(), CliError> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("exr") => write_exr(path, picture, interrupted)?,
-        Some("png") => {
+    match PictureFormat::of(path)? {
+        PictureFormat::Exr => write_exr(path, picture, interrupted)?,
+        PictureFormat::Png => {
             let tone_map = picture.exposure().brighter(stops);
             write_png(path, picture, tone_map, interrupted)?;
-        }
-        _ => {
-            return Err(CliError::Argument(format!(
-                "--out {}: a picture's name ends in .exr or .png",
-                path.display()
-            )));
         }
     }
     Ok(())

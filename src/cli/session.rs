@@ -1,5 +1,7 @@
 //! What every command is given beside its own arguments.
 
+use std::fmt;
+use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -11,4 +13,19 @@ pub struct Session {
     pub words: Vec<String>,
     /// Raised by Ctrl-C.
     pub interrupted: Arc<AtomicBool>,
+}
+
+impl Session {
+    /// A line of the summary on standard output; nothing with `--quiet`.
+    pub fn say(&self, line: fmt::Arguments<'_>) {
+        if !self.quiet {
+            print_line(line);
+        }
+    }
+}
+
+/// A line on standard output. A reader that left early, such as `head`, is no failure: the results
+/// are in files.
+pub fn print_line(line: fmt::Arguments<'_>) {
+    let _ = writeln!(std::io::stdout(), "{line}");
 }

@@ -17,8 +17,18 @@ pub struct SceneArgs {
     #[arg(long, value_enum, default_value_t = SidesArg::Auto)]
     pub sides: SidesArg,
     /// Threads; 0 is one a processor. Results do not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
     pub threads: usize,
+}
+
+/// Most threads: more than any machine of today runs at once, few enough that their stacks can be reserved.
+const MAX_THREADS: usize = 1024;
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n) if n <= MAX_THREADS => Ok(n),
+        _ => Err(format!("a whole number from 0 to {MAX_THREADS} is needed")),
+    }
 }
 
 impl SceneArgs {

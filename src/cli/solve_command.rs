@@ -19,8 +19,6 @@ use std::time::Instant;
 /// Solves a scene and writes the results.
 pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    // A folder that cannot be made is better known before the work than after.
-    make_folder(&command.out)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(command.scene.threads)
         .stack_size(WORKER_STACK)
@@ -41,6 +39,8 @@ fn solve_and_write(
     let start = Instant::now();
     let scene = load_scene(&command.scene)?;
     let load = start.elapsed().as_secs_f64();
+    // A folder that cannot be made is better known before the solve than after; an invalid scene makes none.
+    make_folder(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
     let prepared = PreparedScene::new(
         scene,

@@ -1,5 +1,6 @@
 //! The few lines a person reads at the end of a solve.
 
+use super::session::print_line;
 use crate::output::StatsFile;
 use std::path::PathBuf;
 
@@ -15,21 +16,21 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     };
     let exchanges: u64 = stats.passes.iter().map(|p| p.exchanges).sum();
     let rays: u64 = stats.passes.iter().map(|p| p.rays).sum();
-    println!(
+    print_line(format_args!(
         "{}: {} polygons, {} leaf patches, {} channel(s), Embree {}",
         stats.scene.path,
         stats.scene.polygons,
         stats.hierarchy.leaves,
         stats.scene.channels,
         stats.embree
-    );
-    println!(
+    ));
+    print_line(format_args!(
         "{} pass(es), {exchanges} exchanges, {rays} rays, technique {}, {} thread(s)",
         stats.passes.len(),
         stats.technique,
         stats.threads
-    );
-    println!(
+    ));
+    print_line(format_args!(
         "power: {:.4} W emitted = {:.2} % absorbed + {:.2} % escaped (+- {:.2}) + {:.3} % unshot; imbalance {:+.3} %",
         power.emitted,
         share(power.absorbed),
@@ -37,13 +38,13 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         share(power.escaped_stderr),
         share(power.unshot),
         100.0 * power.imbalance
-    );
+    ));
     let s = &stats.seconds;
-    println!(
+    print_line(format_args!(
         "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, solve {:.2}, output {:.2}",
         s.load, s.embree, s.cluster, s.solve, s.output
-    );
+    ));
     for file in files {
-        println!("wrote {}", file.display());
+        print_line(format_args!("wrote {}", file.display()));
     }
 }

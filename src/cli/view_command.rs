@@ -2,14 +2,16 @@
 
 use super::args::ViewCommand;
 use super::error::CliError;
-use super::render::{render, write_picture};
+use super::render::{PictureFormat, render, write_picture};
 use super::session::Session;
 use crate::output::{Camera, Shading, View, ViewConfig, read_ply};
 use glam::DVec3;
 
 /// Renders DIR/solution.ply.
 pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
-    let mesh = read_ply(&command.solved.join("solution.ply"))?;
+    // A name that no picture can have is better known before the work than after.
+    PictureFormat::of(&command.out)?;
+    let mesh = read_ply(&command.solved.join("solution.ply")).map_err(CliError::Solution)?;
     let config = ViewConfig {
         shading: if command.flat {
             Shading::Flat
@@ -30,9 +32,7 @@ pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
         command.exposure,
         &session.interrupted,
     )?;
-    if !session.quiet {
-        println!("wrote {}", command.out.display());
-    }
+    session.say(format_args!("wrote {}", command.out.display()));
     Ok(())
 }
 

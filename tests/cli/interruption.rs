@@ -1,0 +1,52 @@
+//! Ctrl-C.
+#![cfg(unix)]
+
+use crate::command::{Folder, Outcome};
+use rustix::process::{Pid, Signal, kill_process};
+use std::fs;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Starts a solve of minutes, lets it work for `before`, sends `signal` and waits for its end.
+fn interrupted(folder: &Folder, signal: Signal, before: Duration) -> Outcome {
+    let arguments =
+        "solve builtin:offices --out results --epsilon 1e-9 --gradient 1e-6 --min-area 0";
+    let mut child = folder
+        .command(&arguments.split_whitespace().collect::<Vec<_>>())
+        .spawn()
+        .unwrap();
+    sleep(before);
+    assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+    let sent = Instant::now();
+    kill_process(Pid::from_child(&child), signal).unwrap();
+    let outcome = Outcome::of(child.wait_with_output().unwrap());
+    let waited = sent.elapsed();
+    // Far above what a task takes, far below what the solve would.
+    assert!(waited < Duration::from_secs(10), "{waited:?}");
+    outcome
+}
+
+#[test]
+fn a_stopped_solve_says_so_and_leaves_nothing() {
+    let folder = Folder::new();
+    let run = interrupted(&folder, Signal::INT, Duration::from_secs(3));
+    run.ends_with(130, "interrupted")
+        .says(&["interrupted", "pass", "nothing was"]);
+    assert!(folder.names("results").is_empty());
+}
+
+#[test]
+fn results_of_an_earlier_solve_stay() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("results")).unwrap();
+    let old = ["solution.ply", "stats.json", "view.exr", "view.png"];
+    for name in old {
+        folder.write(&format!("results/{name}"), name);
+    }
+    interrupted(&folder, Signal::TERM, Duration::from_secs(2)).ends_with(130, "terminated");
+    assert_eq!(folder.names("results"), old);
+    for name in old {
+        let path = folder.path("results").join(name);
+        assert_eq!(fs::read(path).unwrap(), name.as_bytes());
+    }
+}

@@ -1,0 +1,91 @@
+//! Scenes that are refused: exit code 2, the place and the reason, and no results.
+
+use crate::command::{COARSE, Folder, ROOM, write_room};
+use std::fs;
+
+/// Solves `name` and expects a refusal that holds `words`.
+#[track_caller]
+fn refused(folder: &Folder, name: &str, words: &[&str]) {
+    folder
+        .run(&["solve", name, "--out", "results", "--no-view"])
+        .ends_with(2, name)
+        .says(words);
+    assert!(folder.names("results").is_empty());
+}
+
+#[test]
+fn files_that_are_no_scene() {
+    let folder = Folder::new();
+    write_room(&folder);
+    fs::create_dir(folder.path("directory.obj")).unwrap();
+    folder.write("empty.obj", "");
+    folder.write("comment.obj", "# nothing\n");
+    folder.write("vertices.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    let noise: Vec<u8> = (0..20_000u32)
+        .map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8)
+        .collect();
+    folder.write("noise.obj", noise);
+    folder.write("zeros.obj", [0; 4096]);
+    for name in ["missing.obj", "directory.obj", "", "noise.obj"] {
+        refused(&folder, name, &[name]);
+    }
+    for name in ["empty.obj", "comment.obj", "vertices.obj", "zeros.obj"] {
+        refused(&folder, name, &[name]);
+    }
+    refused(&folder, "room.mtl", &["room.mtl"]);
+    refused(&folder, "room.obj/below.obj", &["room.obj/below.obj"]);
+}
+
+#[test]
+fn defects_are_named_with_file_and_line() {
+    let folder = Folder::new();
+    write_room(&folder);
+    for (name, from, to, words) in [
+        ("nan", "v 1 -1 -1", "v NaN -1 -1", ["nan.obj:3", "NaN"]),
+        ("inf", "v 1 -1 -1", "v 1 -inf -1", ["inf.obj:3", "inf"]),
+        ("big", "v 1 -1 -1", "v 1 1e999 -1", ["big.obj:3", "1e999"]),
+        ("few", "v 1 -1 -1", "v 1 -1", ["few.obj:3", "`v`"]),
+        ("range", "f 1 2 3 4", "f 1 2 3 99", ["range.obj:15", "99"]),
+        ("zero", "f 1 2 3 4", "f 0 1 2 3", ["zero.obj:15", "0"]),
+        ("back", "f 1 2 3 4", "f -99 1 2 3", ["back.obj:15", "-99"]),
+    ] {
+        folder.write(&format!("{name}.obj"), ROOM[0].replace(from, to));
+        refused(&folder, &format!("{name}.obj"), &words);
+    }
+}
+
+#[test]
+fn materials_that_no_light_can_live_with() {
+    let folder = Folder::new();
+    for (kd, ke, words) in [
+        ("Kd 0.5 NaN 0.5", "Ke 10 10 10", ["scene.mtl:2", "NaN"]),
+        ("Kd -0.1 0 0", "Ke 10 10 10", ["scene.mtl:2", "negative"]),
+        ("Kd 0.5 0.5 0.5", "Ke -1 0 0", ["scene.mtl:5", "negative"]),
+        ("Kd 0.5 0.5 0.5", "Ke inf 0 0", ["scene.mtl:5", "inf"]),
+        ("Kd 0.5 0.5 0.5", "Ke 0 0 0", ["emit", "scene.obj"]),
+        ("Kd 1 1 1", "Ke 10 10 10", ["wall", "--clamp-reflectance"]),
+    ] {
+        folder.write("scene.obj", ROOM[0].replace("room.mtl", "scene.mtl"));
+        let mtl = ROOM[1]
+            .replace("Kd 0.5 0.5 0.5", kd)
+            .replace("Ke 10 10 10", ke);
+        folder.write("scene.mtl", mtl);
+        refused(&folder, "scene.obj", &words);
+    }
+    folder.write("scene.obj", ROOM[0].replace("room.mtl", "missing.mtl"));
+    refused(&folder, "scene.obj", &["missing.mtl", "emit"]);
+}
+
+#[test]
+fn a_clamped_reflectance_is_solved_with_a_warning() {
+    let folder = Folder::new();
+    folder.write("room.obj", ROOM[0]);
+    folder.write("room.mtl", ROOM[1].replace("0.5 0.5 0.5", "1 0.5 2"));
+    folder
+        .line(&format!(
+            "solve room.obj --out results --clamp-reflectance --passes 2 {COARSE}"
+        ))
+        .ends_with(0, "clamped")
+        .says(&["warning", "wall"]);
+    assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
+}
