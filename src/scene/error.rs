@@ -4,6 +4,9 @@ use super::config::CLAMPED_REFLECTANCE;
 use std::fmt;
 use thiserror::Error;
 
+/// Greatest `Ke`: its radiosity pi Ke stays in f32 (3.4e38) after reflections worth a factor of 1e4.
+pub const MAX_EMISSION: f64 = 1.0e34;
+
 /// Largest number of vertices, texture coordinates, faces or polygons in a scene: both sides of
 /// every polygon must be countable in 32 bits.
 pub const MAX_ELEMENTS: usize = 1 << 31;
@@ -78,6 +81,14 @@ pub enum Reason {
         material: String,
         /// `Kd` or `Ke`.
         keyword: &'static str,
+        /// The values.
+        value: [f64; 3],
+    },
+    /// Light that the results cannot hold.
+    #[error("material `{material}`: Ke {} is above {MAX_EMISSION:e}, the most that results in f32 can hold", colour(.value))]
+    EmissionTooHigh {
+        /// The material.
+        material: String,
         /// The values.
         value: [f64; 3],
     },

@@ -1,5 +1,6 @@
 //! Materials as the faces use them: names resolved against the libraries, ranges checked.
 
+use super::error::MAX_EMISSION;
 use super::assets::Assets;
 use super::config::LoadConfig;
 use super::error::{Defect, DefectLog, Reason};
@@ -159,6 +160,13 @@ pub(super) fn check_materials(
                 };
                 DefectLog::new(&material.file, defects).add(Some(line), reason);
             }
+        }
+        if let Some(value) = material.ke.filter(|ke| ke.iter().any(|&c| c > MAX_EMISSION)) {
+            let reason = Reason::EmissionTooHigh {
+                material: material.name.clone(),
+                value,
+            };
+            DefectLog::new(&material.file, defects).add(Some(material.ke_line), reason);
         }
         // With a texture the colour is known only once the image is.
         if material.map_kd.is_none()
