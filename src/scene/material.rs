@@ -1,9 +1,8 @@
 //! Materials as the faces use them: names resolved against the libraries, ranges checked.
 
-use super::error::MAX_EMISSION;
 use super::assets::Assets;
 use super::config::LoadConfig;
-use super::error::{Defect, DefectLog, Reason};
+use super::error::{Defect, DefectLog, MAX_EMISSION, Reason};
 use super::model::SceneWarning;
 use super::mtl_scan::{Ignored, RawMaterial, scan_mtl};
 use super::obj_scan::ObjScan;
@@ -161,7 +160,10 @@ pub(super) fn check_materials(
                 DefectLog::new(&material.file, defects).add(Some(line), reason);
             }
         }
-        if let Some(value) = material.ke.filter(|ke| ke.iter().any(|&c| c > MAX_EMISSION)) {
+        if let Some(value) = material
+            .ke
+            .filter(|ke| ke.iter().any(|&c| c > MAX_EMISSION))
+        {
             let reason = Reason::EmissionTooHigh {
                 material: material.name.clone(),
                 value,
