@@ -91,6 +91,10 @@ impl Oracle {
     /// What becomes of a pair whose samples were partly blocked: a shadow's edge runs through it, so it is
     /// refined further than BFA asks.
     pub fn decide_partial(&self, source: &Element, receiver: &Element, radiosity: f64) -> Decision {
+        // A cluster would pass its light on to the facets in shadow too.
+        if !receiver.is_triangle() {
+            return Decision::SplitReceiver;
+        }
         let power = radiosity * f64::from(source.area * oracle_form_factor(source, receiver));
         if power < PARTIAL_SHARE * self.threshold {
             return Decision::Exchange;

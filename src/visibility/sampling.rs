@@ -50,6 +50,10 @@ pub struct SampledVisibility {
 /// straddle each other's planes; after this many tries the light is below 1 in 4 x rays samples.
 const RETRIES: u32 = 4;
 
+/// Least cosine at either end for a sample to carry light. A flatter ray is trimmed by more than a thousand tau, far
+/// enough to slip under a wall's edge; what it would carry is a millionth of a hemisphere.
+const LEAST_COSINE: f32 = 1.0e-3;
+
 /// Samples the visibility between two elements with `rays` rays.
 ///
 /// `key` names the exchange: (receiver, source, pass, seed). `tau` is the depth below a surface
@@ -138,10 +142,11 @@ fn trim(from: SurfacePoint, to: SurfacePoint, tau: f32) -> Option<Segment> {
     // Depths of each end over the other's plane: distance times cosine.
     let depth_from = from.normal.dot(direction);
     let depth_to = -to.normal.dot(direction);
-    if depth_from <= 0.0 || depth_to <= 0.0 {
+    let r2 = direction.length_squared();
+    let least = LEAST_COSINE * r2.sqrt();
+    if depth_from <= least || depth_to <= least {
         return None;
     }
-    let r2 = direction.length_squared();
     let weight = depth_from * depth_to / (r2 * r2);
     (weight > 0.0 && weight.is_finite()).then_some(Segment {
         direction,
