@@ -6,6 +6,7 @@
 //! random and ties go to the earlier candidate, so the same solution gives the same camera.
 
 use super::camera::Camera;
+use super::eye_places::SurfacePoint;
 use super::solved_mesh::triangle_area;
 use super::view::View;
 use crate::embree::{Hit, Ray};
@@ -15,21 +16,6 @@ use rayon::prelude::*;
 
 /// Points that stand for the lit surface. Their number bounds the noise of a score to 1 in 30.
 const SURFACE_POINTS: usize = 1024;
-
-/// Surface points in front of which eyes are tried, evenly taken from all.
-const EYE_POINTS: usize = 128;
-
-/// Where between a surface and what faces it an eye is tried.
-const EYE_PLACES: [f64; 3] = [0.12, 0.5, 0.88];
-
-/// How far an eye may go towards a side where nothing stands: up to the bounds.
-const OPEN_PLACE: f64 = 0.99;
-
-/// Nearest thing that an eye may have beside it, as a share of the mean distance around it.
-const CLEARANCE: f64 = 0.1;
-
-/// Height of the eye between floor and ceiling: a standing person's in a usual room.
-const EYE_HEIGHT: f64 = 0.6;
 
 /// Directions tried around the vertical, and slopes of the view: level, and a little downwards,
 /// because floors hold more of a scene than ceilings do.
@@ -47,20 +33,6 @@ const LOOK: [usize; 2] = [16, 10];
 
 /// What is nearer than this share of the seen space's size (the root of its area) stands in the way.
 const TOO_NEAR: f64 = 0.18;
-
-/// A point on lit surface, in the units of the rays.
-struct SurfacePoint {
-    position: DVec3,
-    normal: DVec3,
-}
-
-/// The free way from a point in a direction.
-#[derive(Clone, Copy)]
-struct Free {
-    length: f64,
-    /// Nothing stands at its end: the scene's bounds do.
-    open: bool,
-}
 
 /// An eye, a direction (horizontal part of length 1) and the share of the points seen in the frame.
 #[derive(Clone, Copy)]
@@ -155,16 +127,6 @@ impl View<'_> {
         (greatest - least).max(DVec3::splat(f64::MIN_POSITIVE))
     }
 
-    fn bounds(&self) -> (DVec3, DVec3) {
-        self.panels.positions.iter().fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(least, greatest), &p| {
-                let p = self.frame.point(p).as_dvec3();
-                (least.min(p), greatest.max(p))
-            },
-        )
-    }
-
     /// A view of everything from one corner, for scenes without light.
     fn overview(&self, up: DVec3) -> (DVec3, DVec3) {
         let (least, greatest) = self.bounds();
@@ -226,99 +188,6 @@ impl View<'_> {
         (points, lit_area)
     }
 
-    /// Free places in front of lit surface: off the walls, and at the height of a person where
-    /// there is a floor.
-    fn eyes(&self, points: &[SurfacePoint], up: DVec3) -> Vec<DVec3> {
-        let bounds = self.bounds();
-        let stride = points.len().div_ceil(EYE_POINTS).max(1);
-        let mut eyes = Vec::new();
-        for point in points.iter().step_by(stride) {
-            let start = point.position + 1e-4 * point.normal;
-            let Some(free) = self.free_length(start, point.normal, bounds) else {
-                continue;
-            };
-            for place in EYE_PLACES {
-                let place = if free.open && place == EYE_PLACES[2] {
-                    OPEN_PLACE
-                } else {
-                    place
-                };
-                let eye = start + point.normal * (free.length * place);
-                eyes.extend(
-                    self.off_walls(eye, up, bounds)
-                        .and_then(|eye| self.at_height(eye, up, bounds))
-                        .filter(|&eye| self.clear_around(eye, up, bounds)),
-                );
-            }
-        }
-        eyes
-    }
-
-    /// The eye moved along both horizontal axes so far that neither side is much nearer.
-    fn off_walls(&self, mut eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
-        for axis in [DVec3::X, up.cross(DVec3::X)] {
-            let ahead = self.free_length(eye, axis, bounds)?;
-            let behind = self.free_length(eye, -axis, bounds)?;
-            let limit = |free: Free| if free.open { OPEN_PLACE } else { EYE_PLACES[2] };
-            let whole = ahead.length + behind.length;
-            let place = behind.length / whole;
-            let wanted = place.clamp(1.0 - limit(behind), limit(ahead));
-            eye += axis * ((wanted - place) * whole);
-        }
-        Some(eye)
-    }
-
-    /// The eye moved up or down to [`EYE_HEIGHT`].
-    fn at_height(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
-        let above = self.free_length(eye, up, bounds)?.length;
-        let below = self.free_length(eye, -up, bounds)?.length;
-        Some(eye + up * (EYE_HEIGHT * (above + below) - below))
-    }
-
-    /// True when nothing stands close to the eye at its own height.
-    fn clear_around(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> bool {
-        let around: Vec<Free> = (0..AZIMUTHS)
-            .filter_map(|azimuth| {
-                let angle = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
-                let direction = DVec3::X * angle.cos() + up.cross(DVec3::X) * angle.sin();
-                self.free_length(eye, direction, bounds)
-            })
-            .collect();
-        let mean = around.iter().map(|free| free.length).sum::<f64>() / AZIMUTHS as f64;
-        around.len() == AZIMUTHS
-            && (around.iter()).all(|free| free.open || free.length >= CLEARANCE * mean)
-    }
-
-    /// How far a ray goes before it meets something, or leaves the scene's bounds; `None` where
-    /// that is nowhere.
-    fn free_length(
-        &self,
-        from: DVec3,
-        direction: DVec3,
-        (least, greatest): (DVec3, DVec3),
-    ) -> Option<Free> {
-        let leaves = (0..3)
-            .map(|axis| match direction[axis] {
-                d if d > 0.0 => (greatest[axis] - from[axis]) / d,
-                d if d < 0.0 => (least[axis] - from[axis]) / d,
-                _ => f64::INFINITY,
-            })
-            .fold(f64::INFINITY, f64::min);
-        let mut hits = Vec::with_capacity(1);
-        self.embree.closest_hits(&[ray(from, direction)], &mut hits);
-        let free = hits[0].map_or(
-            Free {
-                length: leaves,
-                open: true,
-            },
-            |hit| Free {
-                length: f64::from(hit.t).min(leaves),
-                open: false,
-            },
-        );
-        (free.length.is_finite() && free.length > 1e-3).then_some(free)
-    }
-
     /// The best direction of each slope from an eye.
     fn best_shots(&self, eye: DVec3, points: &[SurfacePoint], frame: &FrameShape) -> Vec<Shot> {
         let facing: Vec<&SurfacePoint> = points
@@ -377,11 +246,6 @@ impl View<'_> {
         // Squared: a quarter of the frame spoiled costs nearly half of the points.
         share * share
     }
-}
-
-/// A ray in the direction's own lengths.
-fn ray(from: DVec3, direction: DVec3) -> Ray {
-    Ray::half_line(from.as_vec3(), direction.as_vec3(), 0.0)
 }
 
 /// The frame of a level camera.

@@ -6,8 +6,10 @@ mod camera;
 mod cluster_colours;
 mod error;
 mod exr_file;
+mod eye_places;
 #[cfg(test)]
 mod fixture;
+mod incidence;
 mod mean_value;
 mod occluder_mesh;
 mod panel;

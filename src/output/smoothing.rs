@@ -7,17 +7,18 @@
 //! follows from it by the patch's own reflectance.
 
 use super::SolvedMesh;
+use super::incidence::{Incident, IncidentTable};
 use super::mean_value::{BorderValue, interpolate};
-use super::panel::{Panel, Panels, position_key};
+use super::panel::{Panel, Panels};
 use glam::DVec3;
-use std::collections::HashMap;
 
 /// Cosine of the greatest angle between normals that are shaded as one surface: 25 degrees keeps
 /// the edges of a 12-sided column and smooths one of 16 sides.
 const CREASE_COSINE: f64 = 0.906_307_787_036_65;
 
-/// Levels of splits across one edge that are followed; a 2^12-fold finer neighbour is invisible.
-const EDGE_LEVELS: u32 = 12;
+/// Irradiance, as a share of the brightest patch at a vertex, below which a patch is taken to be
+/// hidden: open shadows in rooms keep more than that of indirect light, gaps behind furniture do not.
+const HIDDEN: f64 = 0.05;
 
 /// Patches before it at a vertex with which a patch is compared: all of them, but for the hub of a
 /// fan of hundreds of triangles, whose neighbours stand close in the file anyway.
@@ -45,15 +46,6 @@ pub(crate) struct Smoothing {
     hanging: Vec<Hanging>,
     /// `hanging[first_hanging[i] .. first_hanging[i + 1]]` are those of patch `i`.
     first_hanging: Vec<u32>,
-}
-
-/// A patch at a vertex.
-#[derive(Clone, Copy)]
-struct Incident {
-    leaf: u32,
-    /// 0 to 2 for a corner, 3 to 5 for the inside of an edge.
-    slot: u8,
-    along: f32,
 }
 
 impl Smoothing {
@@ -150,95 +142,6 @@ impl Smoothing {
     }
 }
 
-/// The patches around every vertex, by corner or by edge.
-struct IncidentTable {
-    first: Vec<u32>,
-    incidents: Vec<Incident>,
-}
-
-impl IncidentTable {
-    fn new(panels: &Panels) -> Self {
-        let index: HashMap<[u64; 3], u32> = (0u32..)
-            .zip(&panels.positions)
-            .map(|(v, &p)| (position_key(p), v))
-            .collect();
-        let mut found: Vec<(u32, Incident)> = Vec::with_capacity(4 * panels.leaves.len());
-        for (l, leaf) in (0u32..).zip(&panels.leaves) {
-            for slot in 0..3u8 {
-                let from = leaf.corners[usize::from(slot)];
-                let to = leaf.corners[(usize::from(slot) + 1) % 3];
-                found.push((
-                    from,
-                    Incident {
-                        leaf: l,
-                        slot,
-                        along: 0.0,
-                    },
-                ));
-                let mut edge = Edge {
-                    panels,
-                    index: &index,
-                    leaf: l,
-                    slot: 3 + slot,
-                    found: &mut found,
-                };
-                edge.search(from, to, (0.0, 1.0), EDGE_LEVELS);
-            }
-        }
-        // Stable: within a vertex in the order of the patches.
-        found.sort_by_key(|&(vertex, _)| vertex);
-        let mut first = vec![0u32; panels.positions.len() + 1];
-        for (vertex, _) in &found {
-            first[*vertex as usize + 1] += 1;
-        }
-        for i in 1..first.len() {
-            first[i] += first[i - 1];
-        }
-        Self {
-            first,
-            incidents: found.into_iter().map(|(_, i)| i).collect(),
-        }
-    }
-
-    fn of(&self, vertex: usize) -> &[Incident] {
-        &self.incidents[self.first[vertex] as usize..self.first[vertex + 1] as usize]
-    }
-}
-
-/// An edge of a patch, searched for vertices of finer neighbours. Splits halve edges exactly, so
-/// such vertices stand at midpoints, bit by bit, and none stands below a midpoint that is none.
-struct Edge<'a> {
-    panels: &'a Panels,
-    index: &'a HashMap<[u64; 3], u32>,
-    leaf: u32,
-    slot: u8,
-    found: &'a mut Vec<(u32, Incident)>,
-}
-
-impl Edge<'_> {
-    fn search(&mut self, from: u32, to: u32, (start, end): (f32, f32), levels: u32) {
-        let at = |v: u32| self.panels.positions[v as usize];
-        let middle = position_key(0.5 * (at(from) + at(to)));
-        let Some(&vertex) = self.index.get(&middle) else {
-            return;
-        };
-        if levels == 0 || vertex == from || vertex == to {
-            return;
-        }
-        let along = 0.5 * (start + end);
-        self.found.push((
-            vertex,
-            Incident {
-                leaf: self.leaf,
-                slot: self.slot,
-                along,
-            },
-        ));
-        self.search(from, vertex, (start, along), levels - 1);
-        self.search(vertex, to, (along, end), levels - 1);
-    }
-}
-
 /// Numbers the groups of patches whose normals are close, or joined by a chain of close ones.
 fn group_by_normal(around: &[Incident], panels: &Panels, normals: &[DVec3], groups: &mut Vec<u32>) {
     let normal = |i: usize| normals[panels.leaves[around[i].leaf as usize].panel as usize];
@@ -260,44 +163,58 @@ fn group_by_normal(around: &[Incident], panels: &Panels, normals: &[DVec3], grou
 
 /// The mean irradiance of `members` at a vertex. A patch counts by its angle there and by the
 /// closeness of its middle, which is where its own value holds: so between a large patch and a
-/// small one the mean is what a straight line between their middles has at the vertex.
+/// small one the mean is what a straight line between their middles has at the vertex. A patch that
+/// is all but black beside its neighbours hides under or behind something; it counts little, so
+/// that its dark does not seep out from there.
 fn mean<'a>(
     mesh: &SolvedMesh,
     panels: &Panels,
     vertex: usize,
-    members: impl Iterator<Item = &'a Incident>,
+    members: impl Iterator<Item = &'a Incident> + Clone,
 ) -> [f32; 3] {
-    let here = panels.positions[vertex];
+    let irradiance = |incident: &Incident| {
+        let face = &mesh.faces[incident.leaf as usize];
+        face.irradiance.map(f64::from)
+    };
+    let brightness = |e: [f64; 3]| e[0] + e[1] + e[2];
+    let brightest = (members.clone()).fold(0.0, |m: f64, i| m.max(brightness(irradiance(i))));
     let (mut sum, mut total) = ([0.0f64; 3], 0.0);
     for incident in members {
-        let leaf = &panels.leaves[incident.leaf as usize];
-        let corners = leaf.corners.map(|v| panels.positions[v as usize]);
-        let angle = match incident.slot {
-            slot @ 0..3 => {
-                let slot = usize::from(slot);
-                let (a, b) = (
-                    corners[(slot + 1) % 3] - here,
-                    corners[(slot + 2) % 3] - here,
-                );
-                a.cross(b).length().atan2(a.dot(b))
+        let irradiance = irradiance(incident);
+        let dimness = brightness(irradiance) / (HIDDEN * brightest);
+        // Where all is black this is not a number, whose minimum with 1 is 1.
+        let weight = closeness(panels, vertex, incident) * dimness.min(1.0);
+        if weight > 0.0 {
+            for (sum, e) in sum.iter_mut().zip(irradiance) {
+                *sum += weight * e;
             }
-            _ => std::f64::consts::PI,
-        };
-        let distance = ((corners[0] + corners[1] + corners[2]) / 3.0 - here).length();
-        let weight = angle / distance;
-        if !(weight.is_finite() && weight > 0.0) {
-            continue;
+            total += weight;
         }
-        let irradiance = mesh.faces[incident.leaf as usize].irradiance;
-        for c in 0..3 {
-            sum[c] += weight * f64::from(irradiance[c]);
-        }
-        total += weight;
     }
     if total == 0.0 {
         return [0.0; 3];
     }
     sum.map(|s| (s / total) as f32)
+}
+
+/// Angle of a patch at a vertex over the distance of its middle; 0 where that says nothing.
+fn closeness(panels: &Panels, vertex: usize, incident: &Incident) -> f64 {
+    let here = panels.positions[vertex];
+    let corners =
+        (panels.leaves[incident.leaf as usize].corners).map(|v| panels.positions[v as usize]);
+    let angle = match incident.slot {
+        slot @ 0..3 => {
+            let slot = usize::from(slot);
+            let (a, b) = (
+                corners[(slot + 1) % 3] - here,
+                corners[(slot + 2) % 3] - here,
+            );
+            a.cross(b).length().atan2(a.dot(b))
+        }
+        _ => std::f64::consts::PI,
+    };
+    let weight = angle / ((corners[0] + corners[1] + corners[2]) / 3.0 - here).length();
+    if weight.is_finite() { weight } else { 0.0 }
 }
 
 /// How much radiosity a panel adds per irradiance, a channel: its reflectance, read off its patches
@@ -427,6 +344,37 @@ mod tests {
                 assert!(range.contains(&e), "{i}: {e}");
             }
         }
+    }
+
+    /// A black patch is one behind furniture: its neighbours must not darken towards it.
+    #[test]
+    fn hidden_patches_do_not_seep() {
+        let mut mesh = floor_and_wall();
+        let panels = Panels::new(&mesh);
+        let mut hidden = 0;
+        for (i, face) in mesh.faces.iter_mut().enumerate() {
+            let black = i % 5 == 0;
+            hidden += usize::from(black);
+            face.irradiance = [if black { 0.0 } else { 1.0 }; 3];
+        }
+        assert!(hidden > 100);
+        let smoothing = Smoothing::new(&mesh, &panels);
+        for (i, face) in mesh.faces.iter().enumerate() {
+            let [e, ..] = smoothing.irradiance(i, [0.3, 0.3, 0.4]);
+            // A black patch may stand alone at a corner; lit ones are lit throughout.
+            assert!(face.irradiance[0] == 0.0 || (e - 1.0).abs() < 1e-6, "{e}");
+        }
+        // Dim, but far from black: an open shadow, which does count.
+        for face in &mut mesh.faces {
+            face.irradiance = face.irradiance.map(|e| e.max(0.2));
+        }
+        let smoothing = Smoothing::new(&mesh, &panels);
+        let darkened = (mesh.faces.iter().enumerate())
+            .filter(|(i, face)| {
+                face.irradiance[0] == 1.0 && smoothing.irradiance(*i, [0.3, 0.3, 0.4])[0] < 0.99
+            })
+            .count();
+        assert!(darkened > 100, "{darkened}");
     }
 
     #[test]

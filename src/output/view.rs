@@ -134,6 +134,17 @@ impl<'a> View<'a> {
         })
     }
 
+    /// Least and greatest corner of the scene in the units of the rays.
+    pub(super) fn bounds(&self) -> (DVec3, DVec3) {
+        self.panels.positions.iter().fold(
+            (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |(least, greatest), &p| {
+                let p = self.frame.point(p).as_dvec3();
+                (least.min(p), greatest.max(p))
+            },
+        )
+    }
+
     /// Takes a picture; `None` when `interrupted` was raised before it was done. The picture is the
     /// same at any number of threads.
     pub fn render(
