@@ -18,6 +18,8 @@ pub mod visibility;
 
 pub mod solve;
 
+pub mod reference;
+
 pub mod output;
 
 pub mod cli;
