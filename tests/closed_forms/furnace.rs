@@ -59,7 +59,7 @@ fn an_empty_box() {
 }
 
 #[test]
-#[ignore = "minutes: light falls by a hundredth a pass"]
+#[ignore = "takes minutes: a pass takes only a hundredth of the light away"]
 fn an_empty_box_of_reflectance_0_99() {
     check_furnace("furnace", "0.99");
 }
