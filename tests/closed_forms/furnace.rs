@@ -53,9 +53,15 @@ fn check_furnace(name: &str, rho: &str) {
 
 #[test]
 fn an_empty_box() {
-    for rho in ["0", "0.5", "0.8", "0.95", "0.99"] {
+    for rho in ["0", "0.5", "0.8", "0.95"] {
         check_furnace("furnace", rho);
     }
+}
+
+#[test]
+#[ignore = "takes minutes: a pass takes only a hundredth of the light away"]
+fn an_empty_box_of_reflectance_0_99() {
+    check_furnace("furnace", "0.99");
 }
 
 #[test]
