@@ -47,13 +47,7 @@ fn pass(
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
-    let PreparedScene {
-        scene,
-        hierarchy,
-        embree,
-        ..
-    } = prepared;
-    let solved = pool.install(|| solve(scene, hierarchy, embree, &config, &Silent))?;
+    let solved = pool.install(|| solve(prepared, &config, &Silent))?;
     let sum =
         |f: fn(&certilux::solve::PassStatistics) -> f64| solved.passes.iter().map(f).sum::<f64>();
     Ok((sum(|p| p.seconds), sum(|p| p.exchanges as f64) as u64))

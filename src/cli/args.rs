@@ -1,6 +1,6 @@
 //! The command line as typed.
 
-use super::solve_args::{SceneArgs, SolveArgs};
+use super::solve_args::{OccluderArgs, SceneArgs, SolveArgs};
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -33,6 +33,8 @@ pub enum Command {
     Generate(GenerateCommand),
     /// Write the face clusters of a scene in colours, to look at (paper, Fig. 1).
     Clusters(ClustersCommand),
+    /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
+    Occluders(OccludersCommand),
 }
 
 /// `certilux solve`
@@ -170,4 +172,25 @@ pub struct ClustersCommand {
     /// Clusters to show: the hierarchy is cut where it has this many nodes.
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
     pub count: u32,
+}
+
+/// `certilux occluders`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "An occluder is a rectangle that the scene's own surfaces certainly cover: whatever two things it parts \
+                  wholly cannot see each other."
+)]
+pub struct OccludersCommand {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The rectangles: one object an occluder.
+    #[arg(long, value_name = "FILE.obj")]
+    pub out: PathBuf,
+    /// Counts and areas.
+    #[arg(long, value_name = "FILE.json")]
+    pub json: Option<PathBuf>,
+    /// What occluders are to be like.
+    #[command(flatten)]
+    pub occluders: OccluderArgs,
 }

@@ -40,6 +40,9 @@ pub enum CliError {
     /// An argument that the parser cannot check.
     #[error("{0}")]
     Argument(String),
+    /// A check that the command was asked to make has failed.
+    #[error("{0}")]
+    CheckFailed(String),
     /// Ctrl-C.
     #[error("interrupted; nothing was left half-written")]
     Interrupted,
@@ -49,7 +52,7 @@ pub enum CliError {
 }
 
 impl CliError {
-    /// 2 for wrong arguments or input, 130 for an interruption, 3 for anything else.
+    /// 1 for a failed check, 2 for wrong arguments or input, 130 for an interruption, 3 for anything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Arguments(error) => u8::try_from(error.exit_code()).unwrap_or(2),
@@ -60,6 +63,7 @@ impl CliError {
             | Self::Solution(_)
             | Self::Argument(_)
             | Self::Solve(SolveError::Config(_)) => 2,
+            Self::CheckFailed(_) => 1,
             Self::Interrupted
             | Self::Solve(SolveError::Interrupted { .. })
             | Self::Output(OutputError::Interrupted { .. }) => 130,

@@ -5,6 +5,7 @@ mod clusters_command;
 mod error;
 mod generate_command;
 mod interrupt;
+mod occluders_command;
 mod progress;
 mod render;
 mod run;

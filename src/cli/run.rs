@@ -3,7 +3,9 @@
 use super::args::{Cli, Command};
 use super::error::CliError;
 use super::session::Session;
-use super::{clusters_command, generate_command, interrupt, solve_command, view_command};
+use super::{
+    clusters_command, generate_command, interrupt, occluders_command, solve_command, view_command,
+};
 use clap::Parser;
 use std::ffi::OsString;
 
@@ -26,6 +28,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Solve(command) => solve_command::run(&session, &command),
         Command::View(command) => view_command::run(&session, &command),
         Command::Clusters(command) => clusters_command::run(&session, &command),
+        Command::Occluders(command) => occluders_command::run(&session, &command),
         Command::Generate(command) => generate_command::run(&session, &command),
     }
 }

@@ -1,7 +1,8 @@
 //! Flags of every command that reads a scene or solves one.
 
+use crate::occluder::OccluderConfig;
 use crate::scene::{LoadConfig, SidesMode};
-use crate::solve::{ConfigError, Normalise, SolveConfig, Stop, Technique};
+use crate::solve::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
 use clap::{Args, ValueEnum};
 
 /// The scene and how to read it.
@@ -65,8 +66,77 @@ pub enum SidesArg {
 pub enum TechniqueArg {
     /// Rays only.
     Normal,
+    /// Rays, but none where a shaft is proved empty.
+    Visibility,
+    /// Nor where one large occluder is proved to cut every segment.
+    Occlusion,
+    /// As occlusion; and where little is left in a shaft, that little is tested natively.
+    Blockers,
     /// Everything sees everything: measures what visibility costs.
     Unoccluded,
+}
+
+impl From<TechniqueArg> for Technique {
+    fn from(technique: TechniqueArg) -> Self {
+        match technique {
+            TechniqueArg::Normal => Self::Normal,
+            TechniqueArg::Visibility => Self::Visibility,
+            TechniqueArg::Occlusion => Self::Occlusion,
+            TechniqueArg::Blockers => Self::Blockers,
+            TechniqueArg::Unoccluded => Self::Unoccluded,
+        }
+    }
+}
+
+/// `--stride`
+fn parse_stride(text: &str) -> Result<Stride, String> {
+    match text {
+        "auto" => Ok(Stride::Auto),
+        _ => match text.parse() {
+            Ok(levels) if levels > 0 => Ok(Stride::Every(levels)),
+            _ => Err("a whole number from 1, or auto, is needed".to_owned()),
+        },
+    }
+}
+
+/// What the occluders are to be like.
+#[derive(Clone, Debug, Args)]
+pub struct OccluderArgs {
+    /// Occluders of a flat cluster at most.
+    #[arg(long, value_name = "N", default_value_t = OccluderConfig::default().per_cluster)]
+    pub occluders: usize,
+    /// Area of the smallest occluder over the squared diagonal of the scene.
+    #[arg(long, value_name = "X", default_value_t = OccluderConfig::default().min_area, value_parser = parse_share, allow_negative_numbers = true)]
+    pub occluder_size: f64,
+    /// A cluster is flat while its deviation makes an angle below this over its width.
+    #[arg(long, value_name = "DEG", default_value_t = OccluderConfig::default().flatness_degrees, value_parser = parse_angle, allow_negative_numbers = true)]
+    pub flatness: f64,
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("a positive finite number is needed".to_owned()),
+    }
+}
+
+fn parse_angle(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (0.0..=30.0).contains(&x) => Ok(x),
+        _ => Err("an angle from 0 to 30 degrees is needed".to_owned()),
+    }
+}
+
+impl OccluderArgs {
+    /// The configuration of the extraction.
+    pub fn config(&self) -> OccluderConfig {
+        OccluderConfig {
+            per_cluster: self.occluders,
+            min_area: self.occluder_size,
+            flatness_degrees: self.flatness,
+            ..OccluderConfig::default()
+        }
+    }
 }
 
 /// `--normalise`
@@ -84,7 +154,7 @@ pub enum NormaliseArg {
 #[derive(Clone, Debug, Args)]
 pub struct SolveArgs {
     /// How visibility is decided.
-    #[arg(long, value_enum, default_value_t = TechniqueArg::Normal)]
+    #[arg(long, value_enum, default_value_t = TechniqueArg::Occlusion)]
     pub technique: TechniqueArg,
     /// Refine until an exchange carries less than this fraction of the emitted power.
     #[arg(long, value_name = "X", default_value_t = SolveConfig::default().epsilon, allow_negative_numbers = true)]
@@ -110,7 +180,19 @@ pub struct SolveArgs {
     /// Scale each pass so that all that is shot arrives.
     #[arg(long, value_enum, default_value_t = NormaliseArg::Auto)]
     pub normalise: NormaliseArg,
+    /// Levels between queries for a guarantee (the paper's is 4), or auto: where they are likely to pay.
+    #[arg(long, value_name = "K|auto", default_value = DEFAULT_STRIDE, value_parser = parse_stride)]
+    pub stride: Stride,
+    /// What occluders are to be like.
+    #[command(flatten)]
+    pub occluders: OccluderArgs,
+    /// Debugging: cast the rays of proved exchanges all the same; fail if one proves a claim wrong.
+    #[arg(long)]
+    pub check_claims: bool,
 }
+
+/// Levels between queries unless told.
+const DEFAULT_STRIDE: &str = "4";
 
 impl SolveArgs {
     /// The validated configuration.
@@ -120,10 +202,7 @@ impl SolveArgs {
     pub fn config(&self) -> Result<SolveConfig, ConfigError> {
         let default = SolveConfig::default();
         let config = SolveConfig {
-            technique: match self.technique {
-                TechniqueArg::Normal => Technique::Normal,
-                TechniqueArg::Unoccluded => Technique::Unoccluded,
-            },
+            technique: self.technique.into(),
             epsilon: self.epsilon,
             gradient: self.gradient,
             rays: self.rays,
@@ -139,6 +218,9 @@ impl SolveArgs {
                 NormaliseArg::On => Normalise::On,
                 NormaliseArg::Off => Normalise::Off,
             },
+            stride: self.stride,
+            check_claims: self.check_claims,
+            ..default
         };
         config.validate()?;
         Ok(config)

@@ -11,7 +11,7 @@ use crate::embree::DeviceConfig;
 use crate::output::{
     HierarchyBlock, SceneBlock, SecondsBlock, SolvedMesh, StatsFile, ViewConfig, write_ply,
 };
-use crate::solve::{PreparedScene, SolveConfig, Solved, solve};
+use crate::solve::{ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, solve};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -47,15 +47,10 @@ fn solve_and_write(
         command.scene.sides_mode(),
         config.seed,
         &DeviceConfig::default(),
-    )?;
+    )?
+    .with_guarantees(config.technique, &command.solve.occluders.config());
     let solving = Instant::now();
-    let solved = solve(
-        &prepared.scene,
-        &prepared.hierarchy,
-        &prepared.embree,
-        config,
-        &progress,
-    )?;
+    let solved = solve(&prepared, config, &progress)?;
     progress.finish();
     let solve_seconds = solving.elapsed().as_secs_f64();
     for warning in &solved.warnings {
@@ -86,7 +81,7 @@ fn solve_and_write(
     stats.seconds = SecondsBlock {
         load,
         cluster: prepared.seconds.cluster,
-        occluders: 0.0,
+        occluders: prepared.guarantees.as_ref().map_or(0.0, |g| g.seconds),
         embree: prepared.seconds.embree,
         solve: solve_seconds,
         output: writing.elapsed().as_secs_f64(),
@@ -95,7 +90,27 @@ fn solve_and_write(
     if !session.quiet {
         print_summary(&stats, &files);
     }
+    if config.check_claims {
+        report_check(session, &solved.check)?;
+    }
     Ok(())
+}
+
+/// Says what the rays of proved exchanges found; an error if a claim is wrong.
+fn report_check(session: &Session, check: &ClaimCheck) -> Result<(), CliError> {
+    session.say(format_args!(
+        "claims checked: {} rays, {} disagree with Embree, {} contradictions stand",
+        check.rays,
+        check.disagreements,
+        check.contradictions.len()
+    ));
+    match check.contradictions.first() {
+        None => Ok(()),
+        Some(first) => Err(CliError::CheckFailed(format!(
+            "{} rays prove claims wrong; the first: {first:?}",
+            check.contradictions.len()
+        ))),
+    }
 }
 
 fn stats_file(
@@ -105,6 +120,7 @@ fn stats_file(
     solved: &Solved,
 ) -> StatsFile {
     let hierarchy = &prepared.hierarchy;
+    let guarantees = prepared.guarantees.as_ref();
     let count = |kind| hierarchy.nodes.iter().filter(|n| n.kind == kind).count();
     let mut scene = SceneBlock::new(&prepared.scene);
     scene.warnings.extend(solved.warnings.iter().cloned());
@@ -122,9 +138,9 @@ fn stats_file(
         hierarchy: HierarchyBlock {
             face_clusters: count(crate::cluster::NodeKind::FaceCluster),
             volume_clusters: count(crate::cluster::NodeKind::Volume),
-            occluders: 0,
+            occluders: guarantees.map_or(0, |g| g.occluders.len()),
             leaves: solved.leaves,
-            bytes: hierarchy.bytes() + solved.bytes,
+            bytes: hierarchy.bytes() + solved.bytes + guarantees.map_or(0, Guarantees::bytes),
         },
         passes: solved.passes.clone(),
         seconds: SecondsBlock::default(),

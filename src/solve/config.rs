@@ -8,6 +8,12 @@ use serde::Serialize;
 pub enum Technique {
     /// Rays only.
     Normal,
+    /// And full visibility, proved by empty shafts.
+    Visibility,
+    /// And full occlusion, proved by one large occluder.
+    Occlusion,
+    /// And what is left in the shaft, where it is little, tested natively (design, section 7).
+    Blockers,
     /// Everything sees everything: measures what visibility costs, and shoots light through walls.
     Unoccluded,
 }
@@ -17,9 +23,31 @@ impl Technique {
     pub fn name(self) -> &'static str {
         match self {
             Self::Normal => "normal",
+            Self::Visibility => "visibility",
+            Self::Occlusion => "occlusion",
+            Self::Blockers => "blockers",
             Self::Unoccluded => "unoccluded",
         }
     }
+
+    /// True where full visibility is asked.
+    pub fn proves_visibility(self) -> bool {
+        matches!(self, Self::Visibility | Self::Occlusion | Self::Blockers)
+    }
+
+    /// True where full occlusion is asked.
+    pub fn proves_occlusion(self) -> bool {
+        matches!(self, Self::Occlusion | Self::Blockers)
+    }
+}
+
+/// At which levels of the walk the guarantees are asked, besides at each exchange.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stride {
+    /// At every so many levels; at least 1. The paper asks at every fourth.
+    Every(u32),
+    /// Where it is likely to pay.
+    Auto,
 }
 
 /// When to stop shooting.
@@ -52,6 +80,12 @@ pub struct SolveConfig {
     pub seed: u64,
     /// Whether a closed scene's passes are scaled so that what arrives is what was shot.
     pub normalise: Normalise,
+    /// When the guarantees are asked.
+    pub stride: Stride,
+    /// How many claims to keep for an audit: a uniform sample, or all with `usize::MAX`.
+    pub keep_claims: usize,
+    /// Cast the rays of claimed exchanges all the same, and judge every one that disagrees.
+    pub check_claims: bool,
 }
 
 /// Row normalisation: in a closed scene the form factors of a row sum to one, and an error eta of
@@ -68,6 +102,8 @@ pub enum Normalise {
 }
 
 impl SolveConfig {
+    /// Levels between queries in the paper (section 5.3).
+    pub const PAPER_STRIDE: u32 = 4;
     /// Passes after which a solve gives up converging.
     pub const MAX_PASSES: u32 = 200;
     /// Reflectance from which a row error of 0.1 % is worth 2 % in radiosity.
@@ -96,6 +132,9 @@ impl SolveConfig {
         if !(self.min_area >= 0.0 && self.min_area.is_finite()) {
             return fail("--min-area", "must be zero or a positive finite number");
         }
+        if self.stride == Stride::Every(0) {
+            return fail("--stride", "must be at least 1, or auto");
+        }
         match self.stop {
             Stop::Passes(0) => fail("--passes", "must be at least 1"),
             Stop::Converged(x) if !(x > 0.0 && x.is_finite()) => {
@@ -109,7 +148,7 @@ impl SolveConfig {
 impl Default for SolveConfig {
     fn default() -> Self {
         Self {
-            technique: Technique::Normal,
+            technique: Technique::Occlusion,
             epsilon: 1.0e-5,
             gradient: 5.0e-3,
             rays: 8,
@@ -117,6 +156,9 @@ impl Default for SolveConfig {
             min_area: 1.0e-6,
             seed: 1,
             normalise: Normalise::Auto,
+            stride: Stride::Every(Self::PAPER_STRIDE),
+            keep_claims: 0,
+            check_claims: false,
         }
     }
 }

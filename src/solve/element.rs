@@ -1,10 +1,12 @@
 //! Elements as the solver meets them: a node of the hierarchy or a patch, with the geometry that
 //! the oracle, the form factor and the visibility tests need.
 
+use super::element_name::ElementName;
 use super::solution::{PatchPath, split_triangle};
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{Aabb, FacetId, NodeId};
 use crate::scene::Scene;
+use crate::visibility::ElementBounds;
 use glam::Vec3;
 
 /// What kind of surface an element is.
@@ -54,6 +56,33 @@ pub struct Element {
 }
 
 impl Element {
+    /// The element with this name.
+    pub fn named(scene: &Scene, hierarchy: &Hierarchy, name: ElementName) -> Self {
+        let root = Self::of_node(scene, hierarchy, name.node);
+        name.path.steps().fold(root, |element, which| {
+            let Shape::Triangle(corners) = element.shape else {
+                unreachable!("only facets are split into patches");
+            };
+            element.triangle_child(corners, which)
+        })
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> ElementName {
+        ElementName {
+            node: self.node,
+            path: self.path,
+        }
+    }
+
+    /// The convex set that stands for this element in shafts: its corners, or its box.
+    pub fn shaft_bounds(&self) -> ElementBounds {
+        match &self.shape {
+            Shape::Triangle(corners) => ElementBounds::from_polygon(corners),
+            _ => ElementBounds::from_box(self.bounds),
+        }
+    }
+
     /// The element of a node.
     pub fn of_node(scene: &Scene, hierarchy: &Hierarchy, id: NodeId) -> Self {
         let node = hierarchy.node(id);
@@ -232,6 +261,13 @@ impl Element {
                     >= -tolerance
             }
         }
+    }
+
+    /// True when every segment from a point of this triangle to one of `other` leaves its plane at a cosine above
+    /// `least`, by a safe margin. False for clusters.
+    pub fn faces_beyond(&self, other: &Self, least: f32) -> bool {
+        let greatest = (other.centroid - self.centroid).length() + other.radius + self.radius;
+        self.is_triangle() && self.plane_range(other)[0] > 2.0 * least * greatest
     }
 
     /// Least and greatest signed distance of another element to this one's plane: of a triangle by its corners

@@ -1,8 +1,11 @@
 //! Scenes built by hand for the tests of this stage.
 
-use crate::cluster::{ClusterConfig, Hierarchy, build_hierarchy};
+use super::config::Technique;
+use super::prepared::{PreparedScene, StageSeconds};
+use crate::cluster::{ClusterConfig, build_hierarchy};
 use crate::embree::{CommittedScene, Device, DeviceConfig};
 use crate::math::PolygonId;
+use crate::occluder::OccluderConfig;
 use crate::scene::{Facet, Normalisation, Polygon, Scene, Side, Surface};
 use glam::{DVec3, Vec3};
 
@@ -104,11 +107,17 @@ pub fn fronts(scene: &Scene) -> Vec<Facet> {
         .collect()
 }
 
-/// Hierarchy and Embree scene of the fronts.
-pub fn prepare(scene: &Scene) -> (Hierarchy, CommittedScene) {
-    let hierarchy = build_hierarchy(scene, &fronts(scene), &ClusterConfig::default());
+/// The fronts of a scene, ready to be solved with guarantees.
+pub fn prepare(scene: &Scene) -> PreparedScene {
     let device = Device::new(&DeviceConfig::default()).expect("Embree opens");
     let triangles: Vec<[u32; 3]> = scene.polygons.iter().map(|p| p.vertices).collect();
-    let embree = CommittedScene::build(&device, &scene.positions, &triangles).expect("commits");
-    (hierarchy, embree)
+    PreparedScene {
+        hierarchy: build_hierarchy(scene, &fronts(scene), &ClusterConfig::default()),
+        embree: CommittedScene::build(&device, &scene.positions, &triangles).expect("commits"),
+        embree_version: device.version(),
+        scene: scene.clone(),
+        guarantees: None,
+        seconds: StageSeconds::default(),
+    }
+    .with_guarantees(Technique::Occlusion, &OccluderConfig::default())
 }

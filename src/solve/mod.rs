@@ -1,17 +1,22 @@
 //! Cluster hierarchical radiosity without links (paper, section 4).
 
+mod claim_check;
+mod claims;
 mod config;
 mod element;
+mod element_name;
 mod error;
 #[cfg(test)]
 mod fixture;
 mod form_factor;
+mod guarantees;
 mod ledger;
 mod observer;
 mod oracle;
 mod ownership;
 mod pass;
 mod prepared;
+mod prover;
 mod push_pull;
 mod radiosity;
 mod sampled_element;
@@ -22,8 +27,13 @@ mod solve;
 mod solve_tests;
 mod statistics;
 
-pub use config::{ConfigError, Normalise, SolveConfig, Stop, Technique};
+pub use claim_check::{ClaimCheck, Contradiction};
+pub use claims::{Claim, ClaimSample};
+pub use config::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
+pub use element::Element;
+pub use element_name::ElementName;
 pub use error::SolveError;
+pub use guarantees::Guarantees;
 pub use observer::{Observer, Silent};
 pub use prepared::{PreparedScene, StageSeconds};
 pub use solution::{PatchPath, Solution, SolvedPatch, split_triangle};

@@ -4,11 +4,15 @@
 //! 1998). Every task owns its receivers and reads sources from the state frozen before the pass, so the
 //! result has the same bits at any number of threads.
 
+use super::claim_check::{ClaimCheck, Recording};
+use super::claims::{Claim, ClaimSample};
 use super::config::{SolveConfig, Technique};
 use super::element::{Element, Shape};
 use super::form_factor::{Arrival, Flatness, Space, arrival};
+use super::guarantees::Guarantees;
 use super::observer::Observer;
 use super::oracle::{Decision, Oracle};
+use super::prover::{Knowledge, Proof, Prover};
 use super::push_pull::local_children;
 use super::radiosity::{Gatherer, Radiosity, Shooter};
 use super::sampled_element::{ReceiverSurface, SourceSurface};
@@ -17,7 +21,9 @@ use crate::cluster::{Hierarchy, NodeKind};
 use crate::embree::CommittedScene;
 use crate::math::{NodeId, hash_u64};
 use crate::scene::Scene;
-use crate::visibility::{SampledVisibility, sample_visibility};
+use crate::visibility::{
+    AllClear, LEAST_COSINE, SampledVisibility, SegmentTest, Verdict, sample_visibility,
+};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -30,6 +36,8 @@ pub struct SolveContext<'a> {
     pub hierarchy: &'a Hierarchy,
     /// Its polygons, in Embree.
     pub embree: &'a CommittedScene,
+    /// What the guaranteed tests stand on, where the technique asks for them.
+    pub guarantees: Option<&'a Guarantees>,
     /// Unit normal of each facet.
     pub normals: &'a [Vec3],
     /// Sum of the areas of the facets before each facet, and of all at the end.
@@ -51,8 +59,8 @@ struct Pass<'a, const C: usize> {
     owner_of_facet: &'a [u32],
     first_facets: &'a [u32],
     oracle: Oracle,
-    technique: Technique,
-    rays: u32,
+    config: &'a SolveConfig,
+    pass: u32,
     /// Hash of the seed and the pass.
     key: u64,
     /// Power that all owners together may drop.
@@ -60,7 +68,7 @@ struct Pass<'a, const C: usize> {
 }
 
 /// What a pass did.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct PassOutcome {
     /// Counts; `seconds` and `unshot` are left to the caller.
     pub statistics: PassStatistics,
@@ -68,6 +76,10 @@ pub struct PassOutcome {
     pub dropped: f64,
     /// True when the observer asked to stop: the light is then worth nothing.
     pub interrupted: bool,
+    /// Claims kept for an audit.
+    pub claims: ClaimSample,
+    /// What the rays of claimed exchanges said, where they were cast.
+    pub check: ClaimCheck,
 }
 
 /// Share of the emitted power that may be dropped in pass `k`: all passes together stay below 1e-3 (design,
@@ -107,8 +119,8 @@ pub fn run_pass<const C: usize>(
             min_area: (config.min_area * context.polygon_area) as f32,
             tau: context.tau,
         },
-        technique: config.technique,
-        rays: config.rays,
+        config,
+        pass,
         key: hash_u64(config.seed ^ hash_u64(u64::from(pass))),
         drop_budget: drop_share(pass) * emitted,
     };
@@ -123,11 +135,16 @@ pub fn run_pass<const C: usize>(
             outcome
         })
         .collect();
-    let mut sum = PassOutcome::default();
+    let mut sum = PassOutcome {
+        claims: ClaimSample::new(config.keep_claims),
+        ..PassOutcome::default()
+    };
     for outcome in outcomes {
         sum.statistics.add_counts(&outcome.statistics);
         sum.dropped += outcome.dropped;
         sum.interrupted |= outcome.interrupted;
+        sum.claims.merge(outcome.claims);
+        sum.check.merge(outcome.check);
     }
     sum.statistics.pass = pass;
     sum
@@ -150,11 +167,40 @@ struct Receiver {
     local: u32,
 }
 
+/// What is known of a pair, and the claim that it rests on.
+#[derive(Clone, Copy)]
+struct Known {
+    knowledge: Knowledge,
+    claim: Option<Claim>,
+}
+
+impl Known {
+    const NOTHING: Self = Self {
+        knowledge: Knowledge::NOTHING,
+        claim: None,
+    };
+
+    fn below(self) -> Self {
+        Self {
+            knowledge: self.knowledge.below(),
+            ..self
+        }
+    }
+
+    /// Nothing passes between occluded elements; only a check goes on, to cast their rays.
+    fn ends_the_pair(self, config: &SolveConfig) -> bool {
+        self.knowledge.verdict == Verdict::Occluded && !config.check_claims
+    }
+}
+
 /// One owner's share of a pass.
 struct Task<'a, 'g, const C: usize> {
     pass: Pass<'a, C>,
     gatherer: &'g mut Gatherer<C>,
+    prover: Option<Prover<'a>>,
     outcome: PassOutcome,
+    /// Segments of the exchange whose claim is being checked.
+    segments: Vec<(Vec3, Vec3, bool)>,
     drop_budget: f64,
     visits: u32,
 }
@@ -165,7 +211,12 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         Self {
             pass,
             gatherer,
-            outcome: PassOutcome::default(),
+            prover: Prover::new(pass.context.guarantees, pass.config),
+            outcome: PassOutcome {
+                claims: ClaimSample::new(pass.config.keep_claims),
+                ..PassOutcome::default()
+            },
+            segments: Vec::new(),
             drop_budget: pass.drop_budget * share,
             visits: 0,
         }
@@ -181,7 +232,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             ),
             local: 0,
         };
-        self.walk(&source, &receiver);
+        self.walk(&source, &receiver, Known::NOTHING);
         self.outcome
     }
 
@@ -212,7 +263,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    fn walk(&mut self, source: &Source, receiver: &Receiver) {
+    fn walk(&mut self, source: &Source, receiver: &Receiver, known: Known) {
         let greatest = self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x));
         if greatest <= 0.0 || self.is_interrupted() {
             return;
@@ -228,17 +279,65 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             }
             // The budget is spent: go on down where something can be split.
             Decision::Drop(_) => {
-                if source.element.radius >= receiver.element.radius && !source.element.is_triangle()
-                    || receiver.element.is_triangle()
-                {
-                    self.split_source(source, receiver);
-                } else {
-                    self.split_receiver(source, receiver);
-                }
+                let by_source = source.element.radius >= receiver.element.radius
+                    && !source.element.is_triangle()
+                    || receiver.element.is_triangle();
+                self.split(source, receiver, known, by_source);
             }
-            Decision::Exchange => self.exchange(source, receiver, f64::from(greatest)),
-            Decision::SplitSource => self.split_source(source, receiver),
-            Decision::SplitReceiver => self.split_receiver(source, receiver),
+            Decision::Exchange => self.exchange(source, receiver, f64::from(greatest), known),
+            Decision::SplitSource => self.split(source, receiver, known, true),
+            Decision::SplitReceiver => self.split(source, receiver, known, false),
+        }
+    }
+
+    /// Asks for a guarantee where it is due, and goes on with the children of one end.
+    fn split(&mut self, source: &Source, receiver: &Receiver, known: Known, by_source: bool) {
+        let known = self.prove(source, receiver, known, Prover::before_split);
+        if known.ends_the_pair(self.pass.config) {
+            return;
+        }
+        if by_source {
+            self.split_source(source, receiver, known.below());
+        } else {
+            self.split_receiver(source, receiver, known.below());
+        }
+    }
+
+    /// Asks the prover, if there is one, in the way of `ask`, and keeps a new claim.
+    fn prove(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        known: Known,
+        ask: fn(&mut Prover<'a>, &Element, &Element, Knowledge, &mut PassStatistics) -> Proof,
+    ) -> Known {
+        let Some(prover) = &mut self.prover else {
+            return known;
+        };
+        let proof = ask(
+            prover,
+            &source.element,
+            &receiver.element,
+            known.knowledge,
+            &mut self.outcome.statistics,
+        );
+        let is_new = proof.knowledge.verdict != known.knowledge.verdict;
+        let claim = match is_new {
+            true => Some(Claim {
+                pass: self.pass.pass,
+                source: source.element.name(),
+                receiver: receiver.element.name(),
+                occluder: proof.occluder,
+            }),
+            false => known.claim,
+        };
+        if let Some(claim) = claim.filter(|_| is_new && self.outcome.claims.is_wanted()) {
+            let key = exchange_key(self.pass.key, &source.element, &receiver.element);
+            self.outcome.claims.offer(key, claim);
+        }
+        Known {
+            knowledge: proof.knowledge,
+            claim,
         }
     }
 
@@ -250,7 +349,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         self.outcome.interrupted
     }
 
-    fn split_source(&mut self, source: &Source, receiver: &Receiver) {
+    fn split_source(&mut self, source: &Source, receiver: &Receiver, known: Known) {
         if let Shape::Triangle(corners) = source.element.shape {
             let first = self.pass.shooters[source.owner as usize].children[source.slot as usize];
             for which in 0..4 {
@@ -264,17 +363,17 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                         first + which
                     },
                 };
-                self.walk(&child, receiver);
+                self.walk(&child, receiver, known);
             }
         } else if let Some(children) = self.pass.context.hierarchy.children(source.element.node) {
             for child in children {
                 let child = self.source_of_node(child);
-                self.walk(&child, receiver);
+                self.walk(&child, receiver, known);
             }
         }
     }
 
-    fn split_receiver(&mut self, source: &Source, receiver: &Receiver) {
+    fn split_receiver(&mut self, source: &Source, receiver: &Receiver, known: Known) {
         let context = self.pass.context;
         if let Shape::Triangle(corners) = receiver.element.shape {
             for which in 0..4 {
@@ -282,7 +381,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     element: receiver.element.triangle_child(corners, which),
                     local: 0,
                 };
-                self.walk(source, &child);
+                self.walk(source, &child, known);
             }
         } else if let Some(children) = context.hierarchy.children(receiver.element.node) {
             let locals = local_children(context.hierarchy, children[0], receiver.local as usize);
@@ -291,13 +390,13 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     element: Element::of_node(context.scene, context.hierarchy, child),
                     local: local as u32,
                 };
-                self.walk(source, &child);
+                self.walk(source, &child, known);
             }
         }
     }
 
     /// Transfers energy: radiosity x form factor x visibility.
-    fn exchange(&mut self, source: &Source, receiver: &Receiver, greatest: f64) {
+    fn exchange(&mut self, source: &Source, receiver: &Receiver, greatest: f64, known: Known) {
         let context = self.pass.context;
         let oracle = self.pass.oracle;
         let (unoccluded, residual) = arrival(
@@ -319,33 +418,32 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             return;
         }
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
-            return self.split_receiver(source, receiver);
+            return self.split(source, receiver, known, false);
         }
-        let visibility = match self.pass.technique {
-            Technique::Unoccluded => {
-                self.outcome.statistics.exchanges += 1;
-                1.0
+        let known = self.prove(source, receiver, known, Prover::before_exchange);
+        let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
+            (Technique::Unoccluded, _) => 1.0,
+            (_, Verdict::Unknown) => {
+                let Some(sampled) = self.sampled(source, receiver, greatest, known) else {
+                    return;
+                };
+                sampled
             }
-            Technique::Normal => {
-                let sampled = self.sample(source, &receiver.element);
-                self.outcome.statistics.rays += u64::from(sampled.rays);
-                self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
-                if !(sampled.all_blocked || sampled.all_clear) {
-                    let decision =
-                        oracle.decide_partial(&source.element, &receiver.element, greatest);
-                    match decision {
-                        Decision::SplitSource => return self.split_source(source, receiver),
-                        Decision::SplitReceiver => return self.split_receiver(source, receiver),
-                        _ => {}
-                    }
+            (_, verdict) => {
+                if let Some(claim) = known.claim.filter(|_| self.pass.config.check_claims) {
+                    self.check(source, &receiver.element, claim);
                 }
-                let statistics = &mut self.outcome.statistics;
-                statistics.exchanges += 1;
-                statistics.exchanges_blocked += u64::from(sampled.all_blocked);
-                statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
-                sampled.visibility
+                match verdict {
+                    Verdict::Visible => {
+                        self.outcome.statistics.exchanges_visible += 1;
+                        self.visible_share(source, &receiver.element)
+                    }
+                    // Reached only while claims are being checked.
+                    _ => return,
+                }
             }
         };
+        self.outcome.statistics.exchanges += 1;
         if visibility > 0.0 {
             let radiosity = self.radiosity(source).map(f64::from);
             let light = radiosity.map(|b| b * f64::from(visibility));
@@ -353,11 +451,106 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    fn sample(&self, source: &Source, receiver: &Element) -> SampledVisibility {
+    /// Visibility by samples, or `None` if the pair was split instead.
+    fn sampled(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        greatest: f64,
+        known: Known,
+    ) -> Option<f32> {
+        let sampled = self.sample_where_cheapest(source, &receiver.element, known);
+        if !(sampled.all_blocked || sampled.all_clear) {
+            let decision =
+                self.pass
+                    .oracle
+                    .decide_partial(&source.element, &receiver.element, greatest);
+            match decision {
+                Decision::SplitSource => {
+                    self.split_source(source, receiver, known.below());
+                    return None;
+                }
+                Decision::SplitReceiver => {
+                    self.split_receiver(source, receiver, known.below());
+                    return None;
+                }
+                _ => {}
+            }
+        }
+        let statistics = &mut self.outcome.statistics;
+        statistics.exchanges_blocked += u64::from(sampled.all_blocked);
+        statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
+        Some(sampled.visibility)
+    }
+
+    /// Casts an exchange's samples: natively against a short list of polygons, else through Embree.
+    fn sample_where_cheapest(
+        &mut self,
+        source: &Source,
+        receiver: &Element,
+        known: Known,
+    ) -> SampledVisibility {
+        if self.pass.config.technique == Technique::Blockers {
+            // Out of its place while the list lives, since sampling reads the rest of the task.
+            let mut prover = self.prover.take();
+            let native = prover
+                .as_mut()
+                .and_then(|p| p.blockers(known.knowledge))
+                .map(|list| self.sample(list, source, receiver));
+            self.prover = prover;
+            if let Some(sampled) = native {
+                let statistics = &mut self.outcome.statistics;
+                statistics.native_rays += u64::from(sampled.rays);
+                statistics.native_rays_blocked += u64::from(sampled.rays_blocked);
+                return sampled;
+            }
+        }
+        let sampled = self.sample(self.pass.context.embree, source, receiver);
+        let statistics = &mut self.outcome.statistics;
+        statistics.rays += u64::from(sampled.rays);
+        statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        sampled
+    }
+
+    /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
+    /// technique without proofs would find none either.
+    fn visible_share(&self, source: &Source, receiver: &Element) -> f32 {
+        if source.element.faces_beyond(receiver, LEAST_COSINE)
+            && receiver.faces_beyond(&source.element, LEAST_COSINE)
+        {
+            return 1.0;
+        }
+        self.sample(AllClear, source, receiver).visibility
+    }
+
+    /// Casts the rays that a claim saves, and judges those that disagree.
+    fn check(&mut self, source: &Source, receiver: &Element, claim: Claim) {
+        let Some(guarantees) = self.pass.context.guarantees else {
+            return;
+        };
+        let mut segments = std::mem::take(&mut self.segments);
+        segments.clear();
+        let recording = Recording {
+            test: self.pass.context.embree,
+            segments: &mut segments,
+        };
+        self.sample(recording, source, receiver);
+        self.outcome
+            .check
+            .judge(&guarantees.scene, claim, &segments);
+        self.segments = segments;
+    }
+
+    fn sample(
+        &self,
+        test: impl SegmentTest,
+        source: &Source,
+        receiver: &Element,
+    ) -> SampledVisibility {
         let context = self.pass.context;
         let key = exchange_key(self.pass.key, &source.element, receiver);
         sample_visibility(
-            context.embree,
+            test,
             &SourceSurface {
                 element: &source.element,
                 scene: context.scene,
@@ -378,7 +571,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 normals: context.normals,
                 area_before: context.area_before,
             },
-            self.pass.rays,
+            self.pass.config.rays,
             key,
             self.pass.oracle.tau,
         )

@@ -1,7 +1,10 @@
 //! Everything that a solve needs, built once from a scene: one line a stage.
 
+use super::config::Technique;
+use super::guarantees::Guarantees;
 use crate::cluster::{ClusterConfig, Hierarchy, build_hierarchy};
 use crate::embree::{CommittedScene, Device, DeviceConfig, EmbreeError, EmbreeVersion};
+use crate::occluder::OccluderConfig;
 use crate::scene::{Scene, SidesMode, resolve_sides};
 use std::time::Instant;
 
@@ -15,6 +18,8 @@ pub struct PreparedScene {
     pub embree_version: EmbreeVersion,
     /// Its facets as a hierarchy.
     pub hierarchy: Hierarchy,
+    /// What the guaranteed tests stand on; see [`Self::with_guarantees`].
+    pub guarantees: Option<Guarantees>,
     /// Wall time of the stages.
     pub seconds: StageSeconds,
 }
@@ -55,6 +60,15 @@ impl PreparedScene {
             scene,
             embree,
             hierarchy,
+            guarantees: None,
         })
+    }
+
+    /// The same with what `technique` needs for its guaranteed tests.
+    #[must_use]
+    pub fn with_guarantees(mut self, technique: Technique, occluders: &OccluderConfig) -> Self {
+        self.guarantees =
+            Guarantees::for_technique(&self.scene, &self.hierarchy, technique, occluders);
+        self
     }
 }

@@ -1,10 +1,14 @@
 //! A solve: passes until the light is spent.
 
+use super::claim_check::ClaimCheck;
+use super::claims::{Claim, ClaimSample};
 use super::config::{Normalise, SolveConfig, Stop};
 use super::error::SolveError;
+use super::guarantees::Guarantees;
 use super::ledger::{Escape, RadiatingPatch, absorbed_power, escape};
 use super::observer::Observer;
-use super::pass::{SolveContext, run_pass};
+use super::pass::{PassOutcome, SolveContext, run_pass};
+use super::prepared::PreparedScene;
 use super::push_pull::{FacetProperties, gathered_power, push_pull, sum_leaves};
 use super::radiosity::{Light, Radiosity};
 use super::solution::{PatchPath, Solution, SolvedPatch};
@@ -37,23 +41,26 @@ pub struct Solved {
     pub bytes: usize,
     /// Whether passes were scaled to conserve power (row normalisation), and the scales.
     pub normalised: Option<Vec<f64>>,
+    /// Claims kept for an audit ([`SolveConfig::keep_claims`]).
+    pub claims: Vec<Claim>,
+    /// What the rays of claimed exchanges said ([`SolveConfig::check_claims`]).
+    pub check: ClaimCheck,
 }
 
-/// Solves a scene. `hierarchy` and `embree` are built from the same scene.
+/// Solves a prepared scene. What the technique proves, it proves with the scene's guarantees
+/// ([`PreparedScene::with_guarantees`]); without them every exchange is sampled.
 ///
 /// # Errors
 /// A setting out of range, or an interruption by the observer.
 pub fn solve(
-    scene: &Scene,
-    hierarchy: &Hierarchy,
-    embree: &CommittedScene,
+    prepared: &PreparedScene,
     config: &SolveConfig,
     observer: &dyn Observer,
 ) -> Result<Solved, SolveError> {
     config.validate()?;
-    match scene.channels() {
-        1 => Solver::<1>::new(scene, hierarchy, embree, config, observer).run(),
-        _ => Solver::<3>::new(scene, hierarchy, embree, config, observer).run(),
+    match prepared.scene.channels() {
+        1 => Solver::<1>::new(prepared, config, observer).run(),
+        _ => Solver::<3>::new(prepared, config, observer).run(),
     }
 }
 
@@ -133,6 +140,7 @@ pub struct Solver<'a, const C: usize> {
     scene: &'a Scene,
     hierarchy: &'a Hierarchy,
     embree: &'a CommittedScene,
+    guarantees: Option<&'a Guarantees>,
     config: &'a SolveConfig,
     observer: &'a dyn Observer,
     table: FacetTable<C>,
@@ -144,12 +152,17 @@ pub struct Solver<'a, const C: usize> {
 impl<'a, const C: usize> Solver<'a, C> {
     /// Prepares a solve.
     pub fn new(
-        scene: &'a Scene,
-        hierarchy: &'a Hierarchy,
-        embree: &'a CommittedScene,
+        prepared: &'a PreparedScene,
         config: &'a SolveConfig,
         observer: &'a dyn Observer,
     ) -> Self {
+        let PreparedScene {
+            scene,
+            hierarchy,
+            embree,
+            guarantees,
+            ..
+        } = prepared;
         let table = FacetTable::<C>::new(scene, hierarchy);
         let light = Radiosity::new(hierarchy, |f| table.emitted[f.index()]);
         let mut emitted = [0.0; C];
@@ -162,6 +175,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             scene,
             hierarchy,
             embree,
+            guarantees: guarantees.as_ref(),
             config,
             observer,
             table,
@@ -175,13 +189,18 @@ impl<'a, const C: usize> Solver<'a, C> {
         let mut warnings = Vec::new();
         let mut dropped = 0.0;
         let mut scales = Vec::new();
+        let mut claims = ClaimSample::new(self.config.keep_claims);
+        let mut check = ClaimCheck::default();
         let emitted = mean(&self.emitted);
         let normalise = self.normalises();
         let unshot = loop {
             let pass = passes.len() as u32 + 1;
-            let (mut statistics, drop, scale) = self.pass(pass, normalise)?;
-            dropped += drop;
+            let (outcome, scale) = self.pass(pass, normalise)?;
+            let mut statistics = outcome.statistics;
+            dropped += outcome.dropped;
             scales.push(scale);
+            claims.merge(outcome.claims);
+            check.merge(outcome.check);
             let unshot = self.unshot_power();
             statistics.unshot = self.to_watts(unshot);
             let fraction = if emitted > 0.0 { unshot / emitted } else { 0.0 };
@@ -210,20 +229,19 @@ impl<'a, const C: usize> Solver<'a, C> {
             channels: C,
             bytes: self.light.bytes(),
             normalised: normalise.then_some(scales),
+            claims: claims.into_claims(),
+            check,
         })
     }
 
-    /// Runs one pass and pushes its light: counts, power dropped, and the normalising scale.
-    fn pass(
-        &mut self,
-        pass: u32,
-        normalise: bool,
-    ) -> Result<(PassStatistics, f64, f64), SolveError> {
+    /// Runs one pass and pushes its light: its outcome and the normalising scale.
+    fn pass(&mut self, pass: u32, normalise: bool) -> Result<(PassOutcome, f64), SolveError> {
         let start = Instant::now();
         let context = SolveContext {
             scene: self.scene,
             hierarchy: self.hierarchy,
             embree: self.embree,
+            guarantees: self.guarantees,
             normals: &self.table.normals,
             area_before: &self.table.area_before,
             polygon_area: self.table.polygon_area,
@@ -232,7 +250,7 @@ impl<'a, const C: usize> Solver<'a, C> {
         };
         let shot = self.unshot_power();
         let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
-        let outcome = run_pass(context, self.config, &mut self.light, pass, greatest);
+        let mut outcome = run_pass(context, self.config, &mut self.light, pass, greatest);
         if outcome.interrupted {
             return Err(SolveError::Interrupted {
                 pass,
@@ -247,9 +265,8 @@ impl<'a, const C: usize> Solver<'a, C> {
         };
         self.push(scale);
         self.light.pull_nodes(self.hierarchy);
-        let mut statistics = outcome.statistics;
-        statistics.seconds = start.elapsed().as_secs_f64();
-        Ok((statistics, outcome.dropped, scale))
+        outcome.statistics.seconds = start.elapsed().as_secs_f64();
+        Ok((outcome, scale))
     }
 
     /// Dropped power is bounded in the greatest channel; the ledger is a mean of the channels.

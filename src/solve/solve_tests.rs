@@ -12,8 +12,7 @@ use glam::Vec3;
 use std::f64::consts::PI;
 
 fn run(scene: &Scene, config: &SolveConfig) -> Solved {
-    let (hierarchy, embree) = prepare(scene);
-    solve(scene, &hierarchy, &embree, config, &Silent).expect("solves")
+    solve(&prepare(scene), config, &Silent).expect("solves")
 }
 
 fn furnace(cells: u32, reflectance: f64, with_block: bool) -> Scene {
@@ -91,7 +90,7 @@ fn the_result_has_the_same_bits_at_any_number_of_threads() {
     for polygon in s.polygons.iter_mut().skip(5).step_by(3) {
         polygon.surface = 1;
     }
-    let (hierarchy, embree) = prepare(&s);
+    let prepared = prepare(&s);
     let config = SolveConfig {
         stop: Stop::Passes(3),
         epsilon: 1.0e-4,
@@ -100,7 +99,7 @@ fn the_result_has_the_same_bits_at_any_number_of_threads() {
     let at = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads start")
-            .install(|| solve(&s, &hierarchy, &embree, &config, &Silent).expect("solves"))
+            .install(|| solve(&prepared, &config, &Silent).expect("solves"))
     };
     let one = at(1);
     assert!(one.passes[2].rays_blocked > 0, "something must be sampled");
@@ -142,8 +141,8 @@ fn an_interrupted_solve_says_so() {
         }
     }
     let s = furnace(2, 0.5, true);
-    let (hierarchy, embree) = prepare(&s);
-    let outcome = solve(&s, &hierarchy, &embree, &SolveConfig::default(), &Stopper);
+    let prepared = prepare(&s);
+    let outcome = solve(&prepared, &SolveConfig::default(), &Stopper);
     assert_eq!(
         outcome.err(),
         Some(SolveError::Interrupted {

@@ -24,7 +24,10 @@ pub use faults::Faults;
 pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
-pub use sampling::{SampledVisibility, Surface, SurfacePoint, sample_visibility};
+pub use sampling::{
+    AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, Surface, SurfacePoint,
+    sample_visibility,
+};
 pub use scene_tree::SceneTree;
 pub use survivors::SurvivorList;
 pub use tolerance::Tolerance;

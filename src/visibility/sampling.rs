@@ -9,9 +9,90 @@
 //! No ray excludes a polygon by identity. It is trimmed where its depth below the plane of the
 //! sample at either end exceeds tau: t = tau / cos on both sides.
 
+use super::blockers::{BlockerList, SegmentOctet};
 use crate::embree::{CommittedScene, RayPacket8};
 use crate::math::SampleSequence;
 use glam::Vec3;
+
+/// Eight sample segments as whoever tests them needs them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampleOctet {
+    /// The segments from point to point, untrimmed.
+    pub segments: SegmentOctet,
+    /// Start of the trimmed segment, as a fraction of the whole.
+    pub near: [f32; 8],
+    /// Its end, likewise.
+    pub far: [f32; 8],
+}
+
+impl SampleOctet {
+    const EMPTY: Self = Self {
+        segments: SegmentOctet {
+            from: [[0.0; 8]; 3],
+            to: [[0.0; 8]; 3],
+        },
+        near: [0.0; 8],
+        far: [-1.0; 8],
+    };
+
+    /// Start of a lane's segment.
+    pub fn from(&self, lane: usize) -> Vec3 {
+        Vec3::from_array(self.segments.from.map(|axis| axis[lane]))
+    }
+
+    /// End of a lane's segment.
+    pub fn to(&self, lane: usize) -> Vec3 {
+        Vec3::from_array(self.segments.to.map(|axis| axis[lane]))
+    }
+}
+
+/// Whoever says which sample segments are blocked.
+pub trait SegmentTest {
+    /// Bit per lane of `active`: the segment is blocked.
+    fn blocked8(&mut self, octet: &SampleOctet, active: u8) -> u8;
+}
+
+/// Embree's answer.
+impl SegmentTest for &CommittedScene {
+    fn blocked8(&mut self, octet: &SampleOctet, active: u8) -> u8 {
+        let segments = &octet.segments;
+        let mut packet = RayPacket8 {
+            tnear: octet.near,
+            tfar: octet.far,
+            ..RayPacket8::default()
+        };
+        let axes = [
+            (&mut packet.org_x, &mut packet.dir_x),
+            (&mut packet.org_y, &mut packet.dir_y),
+            (&mut packet.org_z, &mut packet.dir_z),
+        ];
+        for (axis, (origin, direction)) in axes.into_iter().enumerate() {
+            for lane in 0..8 {
+                origin[lane] = segments.from[axis][lane];
+                direction[lane] = segments.to[axis][lane] - segments.from[axis][lane];
+            }
+        }
+        self.occluded8(&mut packet, active)
+    }
+}
+
+/// A short list's answer, natively.
+impl SegmentTest for &BlockerList {
+    fn blocked8(&mut self, octet: &SampleOctet, active: u8) -> u8 {
+        BlockerList::blocked8(self, &octet.segments) & active
+    }
+}
+
+/// Every segment is clear: for pairs that are proved visible, where all that is asked is whether any
+/// sample carries light.
+#[derive(Clone, Copy, Debug)]
+pub struct AllClear;
+
+impl SegmentTest for AllClear {
+    fn blocked8(&mut self, _: &SampleOctet, _: u8) -> u8 {
+        0
+    }
+}
 
 /// A point of an element with the unit normal of the facet that it lies on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,14 +133,14 @@ const RETRIES: u32 = 4;
 
 /// Least cosine at either end for a sample to carry light. A flatter ray is trimmed by more than a thousand tau, far
 /// enough to slip under a wall's edge; what it would carry is a millionth of a hemisphere.
-const LEAST_COSINE: f32 = 1.0e-3;
+pub const LEAST_COSINE: f32 = 1.0e-3;
 
-/// Samples the visibility between two elements with `rays` rays.
+/// Samples the visibility between two elements with `rays` rays; `test` says which are blocked.
 ///
 /// `key` names the exchange: (receiver, source, pass, seed). `tau` is the depth below a surface
 /// within which nothing blocks.
 pub fn sample_visibility(
-    scene: &CommittedScene,
+    mut test: impl SegmentTest,
     source: &impl Surface,
     receiver: &impl Surface,
     rays: u32,
@@ -75,7 +156,7 @@ pub fn sample_visibility(
         let end = index + rays;
         while index < end {
             let lanes = (end - index).min(8);
-            let mut packet = RayPacket8::default();
+            let mut octet = SampleOctet::EMPTY;
             let mut active = 0u8;
             let mut weights = [0.0f32; 8];
             for (lane, weight) in weights.iter_mut().enumerate().take(lanes as usize) {
@@ -88,20 +169,19 @@ pub fn sample_visibility(
                 *weight = segment.weight * from.light;
                 total_weight += segment.weight;
                 if segment.near < segment.far {
-                    packet.set(
-                        lane,
-                        from.position,
-                        segment.direction,
-                        segment.near,
-                        segment.far,
-                    );
+                    for axis in 0..3 {
+                        octet.segments.from[axis][lane] = from.position[axis];
+                        octet.segments.to[axis][lane] = to.position[axis];
+                    }
+                    octet.near[lane] = segment.near;
+                    octet.far[lane] = segment.far;
                     active |= 1 << lane;
                 }
             }
             let blocked = if active == 0 {
                 0
             } else {
-                scene.occluded8(&mut packet, active)
+                test.blocked8(&octet, active)
             };
             result.rays += active.count_ones();
             result.rays_blocked += blocked.count_ones();
@@ -130,7 +210,6 @@ pub fn sample_visibility(
 
 /// A sample segment, trimmed at both ends.
 struct Segment {
-    direction: Vec3,
     near: f32,
     far: f32,
     weight: f32,
@@ -149,7 +228,6 @@ fn trim(from: SurfacePoint, to: SurfacePoint, tau: f32) -> Option<Segment> {
     }
     let weight = depth_from * depth_to / (r2 * r2);
     (weight > 0.0 && weight.is_finite()).then_some(Segment {
-        direction,
         near: tau / depth_from,
         far: 1.0 - tau / depth_to,
         weight,

@@ -118,6 +118,12 @@ impl SceneTree {
         self.bounds
     }
 
+    /// Every polygon with its corners, in the order of the leaves.
+    pub fn polygons(&self) -> impl Iterator<Item = (PolygonId, [Vec3; 3])> + '_ {
+        let used = |p: &&StoredPolygon| p.id != StoredPolygon::NONE.id;
+        self.polygons.iter().filter(used).map(|p| (p.id, p.corners))
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.tree.bytes()

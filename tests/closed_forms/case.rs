@@ -2,6 +2,7 @@
 
 use certilux::embree::DeviceConfig;
 use certilux::math::FacetId;
+use certilux::occluder::OccluderConfig;
 use certilux::scene::generate::generate;
 use certilux::scene::{LoadConfig, Side, SidesMode, load_text};
 use certilux::solve::{PreparedScene, Silent, SolveConfig, Solved, solve};
@@ -57,15 +58,9 @@ impl Case {
             config.seed,
             &DeviceConfig::default(),
         )
-        .expect("Embree opens");
-        let solved = solve(
-            &prepared.scene,
-            &prepared.hierarchy,
-            &prepared.embree,
-            &config,
-            &Silent,
-        )
-        .expect("solves");
+        .expect("Embree opens")
+        .with_guarantees(config.technique, &OccluderConfig::default());
+        let solved = solve(&prepared, &config, &Silent).expect("solves");
         Self { prepared, solved }
     }
 

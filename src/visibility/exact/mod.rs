@@ -2,10 +2,12 @@
 
 mod dyadic;
 mod occlusion_claim;
+mod scene_segment;
 mod segment;
 mod visibility_claim;
 
 pub use occlusion_claim::{OcclusionFlaw, replay_occlusion};
+pub use scene_segment::{SegmentStanding, judge_segment};
 pub use segment::{surely_blocked, surely_clear_of};
 pub use visibility_claim::{
     PolygonStanding, hull_is_separated, judge_polygon, visibility_counterexample,

@@ -1,0 +1,68 @@
+//! What the guaranteed tests of a solve stand on, built once a scene (paper, sections 3.2 and 5).
+
+use super::config::Technique;
+use crate::cluster::Hierarchy;
+use crate::occluder::{OccluderConfig, OccluderSet, SlabRectangle, extract_occluders};
+use crate::scene::Scene;
+use crate::visibility::{OccluderTree, SceneTree, SurvivorList, Tolerance};
+use std::time::Instant;
+
+/// The occluders and the scene as shafts meet them. Techniques that prove nothing have none of it.
+#[derive(Clone, Debug)]
+pub struct Guarantees {
+    /// The occluders; empty where the technique does not ask for them.
+    pub occluder_set: OccluderSet,
+    /// Their hierarchy.
+    pub occluders: OccluderTree,
+    /// The polygons.
+    pub scene: SceneTree,
+    /// The list with which the topmost pair starts.
+    pub whole_scene: SurvivorList,
+    /// Wall time of it all.
+    pub seconds: f64,
+}
+
+impl Guarantees {
+    /// Builds what `technique` needs: nothing, the polygons, or occluders as well.
+    pub fn for_technique(
+        scene: &Scene,
+        hierarchy: &Hierarchy,
+        technique: Technique,
+        occluders: &OccluderConfig,
+    ) -> Option<Self> {
+        technique
+            .proves_visibility()
+            .then(|| match technique.proves_occlusion() {
+                true => Self::with_occluders(scene, hierarchy, occluders),
+                false => Self::new(scene, OccluderSet::default(), Instant::now()),
+            })
+    }
+
+    /// Everything, whatever the technique.
+    pub fn with_occluders(scene: &Scene, hierarchy: &Hierarchy, config: &OccluderConfig) -> Self {
+        let start = Instant::now();
+        Self::new(scene, extract_occluders(scene, hierarchy, config), start)
+    }
+
+    /// The same with these occluders, whatever the extraction would find: for tests that plant one.
+    pub fn with_set(scene: &Scene, occluder_set: OccluderSet) -> Self {
+        Self::new(scene, occluder_set, Instant::now())
+    }
+
+    fn new(scene: &Scene, occluder_set: OccluderSet, start: Instant) -> Self {
+        let slabs: Vec<SlabRectangle> = occluder_set.occluders.iter().map(|o| o.slab).collect();
+        let tree = SceneTree::build(scene);
+        Self {
+            occluders: OccluderTree::build(&slabs, Tolerance::of_scene(scene.bounds())),
+            whole_scene: SurvivorList::whole_scene(&tree),
+            scene: tree,
+            occluder_set,
+            seconds: start.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.occluders.bytes() + self.scene.bytes()
+    }
+}
