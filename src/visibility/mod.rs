@@ -1,6 +1,7 @@
 //! Guaranteed occluded, guaranteed visible, or unknown (paper, section 5).
 
 mod blockers;
+mod border_plane;
 mod bounds;
 mod crossing;
 pub mod exact;
@@ -34,6 +35,8 @@ pub use tolerance::Tolerance;
 pub use verdict::Verdict;
 pub use wide_tree::WideTreeDefect;
 
+#[cfg(test)]
+mod flush_proofs;
 #[cfg(test)]
 mod nasty_pairs;
 #[cfg(test)]

@@ -7,7 +7,17 @@
 //! to `b` passes inside. `g` is linear in `a` and in `b`, so its extremes over two convex sets are at
 //! their vertices; over an axis-aligned box `B` with centre `c` and half-extents `h` the least value
 //! is `w . (c - r) - |w| . h` with `w = e x (a - r)`.
+//!
+//! **Flush elements.** The commonest pair of all lies on the floor on both sides of a wall that
+//! stands on it: the wall's edge passes within a fraction of the weld distance of every segment,
+//! and no margin of a bilinear form fits in there. But where both elements lie on the inner side of
+//! the plane through the edge at right angles to the rectangle, nothing bilinear is left to decide:
+//! in the axes across the edge, with `x` inwards and `h` along the normal, `g` is `x_a h_b - h_a x_b`
+//! times the edge's length, and `x > 0` on both sides with `h_a < 0 < h_b` settles its sign. Growing
+//! the elements by `m` costs exactly `m` there, however slanted the segments, and in f64 rounding
+//! costs nothing; see [`BorderPlane`].
 
+use super::border_plane::{BorderPlane, Lie};
 use super::bounds::{BoundsShape, ElementBounds};
 use super::faults::Faults;
 use super::tolerance::Tolerance;
@@ -26,6 +36,9 @@ pub struct OccluderFaces {
     high: f32,
     half_thickness: f32,
     edges: [FaceEdge; 4],
+    borders: [BorderPlane; 4],
+    /// Greatest cosine between the normal and an edge: corners are rounded, so not quite zero.
+    lean: f32,
     centre: Vec3,
     /// Greatest coordinate difference between the centre and a corner.
     radius: f32,
@@ -63,8 +76,17 @@ impl OccluderFaces {
                 length_l1: direction.abs().element_sum(),
             }
         });
+        let borders: [BorderPlane; 4] =
+            std::array::from_fn(|i| BorderPlane::new(edges[i].start, edges[i].direction, n));
         Self {
             normal: n,
+            borders,
+            lean: edges.iter().fold(0.0, |lean, edge| {
+                let e = edge.direction.as_dvec3();
+                let cosine = n.as_dvec3().dot(e).abs() / e.length();
+                // NaN, of an edge without length, is passed over: its border plane decides nothing.
+                (cosine as f32).next_up().max(lean)
+            }),
             low: (low as f32).next_down(),
             high: (high as f32).next_up(),
             half_thickness: slab.half_thickness,
@@ -89,9 +111,24 @@ impl OccluderFaces {
         tolerance: &Tolerance,
         faults: Faults,
     ) -> bool {
-        let Some(sign) = self.side_of_second(a, b, tolerance) else {
+        let Some((sign, spare)) = self.side_of_second(a, b, tolerance) else {
             return false;
         };
+        // Heights across an edge are along the part of the normal at right angles to it; they
+        // differ from those along the normal by at most `lean` times the distance to the edge, below
+        // 2 sqrt(3) reach. What `side_of_second` proves has `tau + spare` to give for that.
+        let upright = 3.5 * self.lean * tolerance.reach <= tolerance.tau + 0.999 * spare;
+        let mut open = [true; 4];
+        for (open, border) in open.iter_mut().zip(&self.borders) {
+            match border.lie(a, b, tolerance) {
+                Lie::Inside if upright => *open = false,
+                Lie::Outside if !faults.beside_counts_as_inside() => return false,
+                _ => {}
+            }
+        }
+        if open == [false; 4] {
+            return true;
+        }
         // The eight lanes hold the vertices of one element; a box is best left as the other one.
         let swap = match (a.shape(), b.shape()) {
             (_, BoundsShape::Box) => false,
@@ -101,7 +138,7 @@ impl OccluderFaces {
         let (a, b, sign) = if swap { (b, a, -sign) } else { (a, b, sign) };
         let frame = PairFrame::new(self, a, b, tolerance);
         // A loop, not `all`: its closure would not be compiled for the wide instruction set.
-        for edge in &self.edges {
+        for (edge, _) in self.edges.iter().zip(open).filter(|&(_, open)| open) {
             let threshold = frame.threshold(edge);
             let inside = passes_inside(edge, sign, a, b, threshold)
                 || (faults.beside_counts_as_inside()
@@ -114,7 +151,8 @@ impl OccluderFaces {
     }
 
     /// 1 if `b` lies beyond the slab on the normal's side and `a` on the other, -1 if the other way
-    /// round, `None` if the slab does not separate them with `tau` to spare.
+    /// round, `None` if the slab does not separate them with `tau` to spare; and how much more than
+    /// that is to spare.
     ///
     /// Error: `n . x` of a corner takes 3 roundings relative to `sum |n_i x_i| <= sqrt(3) reach`
     /// (`|n|` is 1 up to 4 u); of a box, `n . c -+ |n| . h` takes 5 relative to
@@ -125,16 +163,16 @@ impl OccluderFaces {
         a: &ElementBounds,
         b: &ElementBounds,
         tolerance: &Tolerance,
-    ) -> Option<f32> {
+    ) -> Option<(f32, f32)> {
         let margin = tolerance.tau + 1.001 * tolerance.nesting + 32.0 * U * tolerance.reach;
         let (low, high) = (self.low - margin, self.high + margin);
         let (a_min, a_max) = height_range(self.normal, a);
         if a_max < low {
             let (b_min, _) = height_range(self.normal, b);
-            (b_min > high).then_some(1.0)
+            (b_min > high).then_some((1.0, (low - a_max).min(b_min - high)))
         } else if a_min > high {
             let (_, b_max) = height_range(self.normal, b);
-            (b_max < low).then_some(-1.0)
+            (b_max < low).then_some((-1.0, (low - b_max).min(a_min - high)))
         } else {
             None
         }
