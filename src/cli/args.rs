@@ -1,6 +1,8 @@
 //! The command line as typed.
 
+use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{OccluderArgs, SceneArgs, SolveArgs};
+use super::typed_number::parse_finite;
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -29,6 +31,10 @@ pub enum Command {
     Solve(SolveCommand),
     /// Render a solved folder from any place.
     View(ViewCommand),
+    /// Measure the radiosity of every face by path tracing, with standard errors.
+    Reference(ReferenceCommand),
+    /// Compare a solution with a reference: relative RMS error and bias.
+    Error(ErrorCommand),
     /// Write a built-in scene as OBJ and MTL.
     Generate(GenerateCommand),
     /// Write the face clusters of a scene in colours, to look at (paper, Fig. 1).
@@ -130,14 +136,6 @@ pub struct PictureSize(pub [u32; 2]);
 
 /// Greatest width or height: 16 k pictures hold 5 GB of layers.
 const GREATEST_SIDE: u32 = 16_384;
-
-fn parse_finite(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        Ok(_) => Err("a finite number is needed".to_owned()),
-        Err(e) => Err(e.to_string()),
-    }
-}
 
 fn parse_vector(text: &str) -> Result<[f64; 3], String> {
     let numbers: Vec<f64> = text

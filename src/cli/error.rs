@@ -1,7 +1,8 @@
 //! Everything that can go wrong on the command line, and its exit code.
 
 use crate::embree::EmbreeError;
-use crate::output::{CameraError, OutputError};
+use crate::output::{CameraError, ComparisonError, OutputError};
+use crate::reference::{NothingToCompare, ReferenceError};
 use crate::scene::LoadError;
 use crate::scene::generate::UnknownScene;
 use crate::solve::{ConfigError, SolveError};
@@ -34,6 +35,18 @@ pub enum CliError {
     /// The solution to work on is missing or is none.
     #[error(transparent)]
     Solution(OutputError),
+    /// The measurement ended without a result.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    /// The reference and the solution do not go together.
+    #[error(transparent)]
+    Comparison(#[from] ComparisonError),
+    /// The reference has nothing to compare with.
+    #[error(transparent)]
+    NothingToCompare(#[from] NothingToCompare),
+    /// A check failed.
+    #[error("{0}")]
+    Check(String),
     /// The camera sees nothing.
     #[error(transparent)]
     Camera(#[from] CameraError),
@@ -56,15 +69,20 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Arguments(error) => u8::try_from(error.exit_code()).unwrap_or(2),
+            Self::Check(_) => 1,
             Self::Load(_)
             | Self::UnknownScene(_)
             | Self::Config(_)
             | Self::Camera(_)
             | Self::Solution(_)
             | Self::Argument(_)
+            | Self::Comparison(_)
+            | Self::NothingToCompare(_)
+            | Self::Reference(ReferenceError::Config(_))
             | Self::Solve(SolveError::Config(_)) => 2,
             Self::CheckFailed(_) => 1,
             Self::Interrupted
+            | Self::Reference(ReferenceError::Interrupted)
             | Self::Solve(SolveError::Interrupted { .. })
             | Self::Output(OutputError::Interrupted { .. }) => 130,
             Self::Embree(_) | Self::Output(_) | Self::System(_) => 3,

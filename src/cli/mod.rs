@@ -3,10 +3,14 @@
 mod args;
 mod clusters_command;
 mod error;
+mod error_command;
 mod generate_command;
 mod interrupt;
 mod occluders_command;
 mod progress;
+mod reference_args;
+mod reference_command;
+mod reference_progress;
 mod render;
 mod run;
 mod scene_source;
@@ -14,6 +18,7 @@ mod session;
 mod solve_args;
 mod solve_command;
 mod summary;
+mod typed_number;
 mod view_command;
 
 pub use error::CliError;

@@ -18,7 +18,8 @@ pub fn load_scene(arguments: &SceneArgs) -> Result<Scene, CliError> {
     Ok(scene)
 }
 
-fn read_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> {
+/// The scene that `source` names.
+pub fn read_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> {
     match source.strip_prefix(BUILTIN) {
         None => Ok(load_file(Path::new(source), config)?),
         Some(name) => {

@@ -55,6 +55,14 @@ pub enum OutputError {
         /// What is wrong, with the place.
         reason: String,
     },
+    /// Not a reference to compare with, or not all of it.
+    #[error("{} is not a reference: {reason}", path.display())]
+    NotAReference {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with the place.
+        reason: String,
+    },
     /// An image encoder's complaint that is not the operating system's.
     #[error("cannot encode {}: {reason}", path.display())]
     Encoding {

@@ -19,6 +19,8 @@ mod ply_reader;
 mod ply_tests;
 mod ply_writer;
 mod png_file;
+mod reference_comparison;
+mod reference_file;
 mod smoothing;
 mod solved_mesh;
 mod stats_file;
@@ -37,6 +39,10 @@ pub use picture::{Picture, Pixel};
 pub use ply_reader::read_ply;
 pub use ply_writer::write_ply;
 pub use png_file::write_png;
+pub use reference_comparison::{ComparisonError, solved_lights, true_faces};
+pub use reference_file::{
+    ReferenceFace, ReferenceMeta, mean_radiosity, read_reference, write_reference,
+};
 pub use solved_mesh::{SolvedFace, SolvedMesh};
 pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json};
 pub use tonemap::ToneMap;

@@ -9,8 +9,16 @@ use std::time::{Duration, Instant};
 
 /// Starts a solve of minutes, lets it work for `before`, sends `signal` and waits for its end.
 fn interrupted(folder: &Folder, signal: Signal, before: Duration) -> Outcome {
-    let arguments =
-        "solve builtin:offices --out results --epsilon 1e-9 --gradient 1e-6 --min-area 0";
+    stopped(
+        folder,
+        "solve builtin:offices --out results --epsilon 1e-9 --gradient 1e-6 --min-area 0",
+        signal,
+        before,
+    )
+}
+
+/// As [`interrupted`], of any command.
+fn stopped(folder: &Folder, arguments: &str, signal: Signal, before: Duration) -> Outcome {
     let mut child = folder
         .command(&arguments.split_whitespace().collect::<Vec<_>>())
         .spawn()
@@ -49,4 +57,20 @@ fn results_of_an_earlier_solve_stay() {
         let path = folder.path("results").join(name);
         assert_eq!(fs::read(path).unwrap(), name.as_bytes());
     }
+}
+
+#[test]
+fn a_stopped_measurement_leaves_the_earlier_one() {
+    let folder = Folder::new();
+    folder.write("ref.json", "earlier");
+    stopped(
+        &folder,
+        "reference builtin:cornell --out ref.json --error 1e-6",
+        Signal::INT,
+        Duration::from_secs(2),
+    )
+    .ends_with(130, "interrupted")
+    .says(&["interrupted"]);
+    assert_eq!(folder.names("."), ["ref.json"]);
+    assert_eq!(fs::read(folder.path("ref.json")).unwrap(), b"earlier");
 }

@@ -8,5 +8,6 @@ mod interruption;
 mod invalid_scenes;
 mod messages;
 mod other_commands;
+mod references;
 mod results;
 mod unwritable;

@@ -1,0 +1,94 @@
+//! `certilux reference`: unbiased radiosity of every source face, with error bars.
+
+use super::error::CliError;
+use super::reference_args::ReferenceCommand;
+use super::reference_progress::ReferenceProgress;
+use super::scene_source::load_scene;
+use super::session::Session;
+use crate::embree::DeviceConfig;
+use crate::output::{ReferenceMeta, mean_radiosity, write_reference};
+use crate::reference::{ReferenceConfig, ReferenceError, TracedScene, measure};
+use crate::solve::SolveConfig;
+use clap::ValueEnum;
+use std::sync::Arc;
+
+/// Measures a scene and writes REF.json.
+pub fn run(session: &Session, command: &ReferenceCommand) -> Result<(), CliError> {
+    let config = ReferenceConfig {
+        error: command.error,
+        max_seconds: command.max_seconds,
+        faces: command.faces,
+        seed: command.seed,
+    };
+    config.validate().map_err(ReferenceError::from)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(command.scene.threads)
+        .build()
+        .map_err(|e| CliError::System(format!("cannot start threads: {e}")))?;
+    pool.install(|| measure_and_write(session, command, &config))
+}
+
+fn measure_and_write(
+    session: &Session,
+    command: &ReferenceCommand,
+    config: &ReferenceConfig,
+) -> Result<(), CliError> {
+    let traced = TracedScene::new(
+        load_scene(&command.scene)?,
+        command.scene.sides_mode(),
+        // The sides of a solve, whatever the seed of the paths.
+        SolveConfig::default().seed,
+        &DeviceConfig::default(),
+    )?;
+    let progress = ReferenceProgress::new(session.quiet, Arc::clone(&session.interrupted));
+    let reference = measure(&traced, config, &progress)?;
+    drop(progress);
+    let [radiosity, stderr] = mean_radiosity(&reference.faces);
+    let relative = if radiosity > 0.0 {
+        stderr / radiosity
+    } else {
+        0.0
+    };
+    let sides = command.scene.sides.to_possible_value();
+    let meta = ReferenceMeta {
+        format: ReferenceMeta::FORMAT,
+        certilux: env!("CARGO_PKG_VERSION").to_owned(),
+        embree: traced.embree_version.to_string(),
+        command: session.words.clone(),
+        scene: traced.scene.name.clone(),
+        sides: sides.map_or_else(String::new, |v| v.get_name().to_owned()),
+        seed: config.seed,
+        threads: rayon::current_num_threads(),
+        error: config.error,
+        max_seconds: config.max_seconds,
+        faces: config.faces,
+        reached: reference.reached,
+        rounds: reference.rounds,
+        paths: reference.paths,
+        rays: reference.rays,
+        seconds: reference.seconds,
+        mean_stderr: stderr,
+        mean_stderr_relative: relative,
+    };
+    write_reference(&command.out, &meta, &reference, &session.interrupted)?;
+    session.say(format_args!(
+        "{}: {} faces and sides, {} paths, {} rays, {} round(s), {:.2} s",
+        meta.scene,
+        reference.faces.len(),
+        meta.paths,
+        meta.rays,
+        meta.rounds,
+        meta.seconds
+    ));
+    session.say(format_args!(
+        "mean radiosity {radiosity:.6} W/m2, mean standard error {:.3} % of it{}",
+        100.0 * relative,
+        if meta.reached {
+            ""
+        } else {
+            "; time was up before the asked error was reached"
+        }
+    ));
+    session.say(format_args!("wrote {}", command.out.display()));
+    Ok(())
+}

@@ -1,0 +1,274 @@
+//! `reference` and `error`.
+
+use crate::command::{COARSE, Folder, write_room};
+use serde_json::{Value, json};
+use std::fs;
+
+fn reference(folder: &Folder, name: &str) -> Value {
+    serde_json::from_slice(&fs::read(folder.path(name)).unwrap()).unwrap()
+}
+
+/// The room measured and solved.
+fn measured_room() -> Folder {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder
+        .line("reference room.obj --out ref.json --error 0.05")
+        .ends_with(0, "reference");
+    folder
+        .line(&format!("solve room.obj --out solved {COARSE}"))
+        .ends_with(0, "solve");
+    folder
+}
+
+#[test]
+fn a_reference_holds_what_the_contract_says() {
+    let folder = measured_room();
+    let file = reference(&folder, "ref.json");
+    let faces = file["faces"].as_array().unwrap();
+    assert!(faces.len() >= 7);
+    for face in faces {
+        assert!(face["area"].as_f64().unwrap() > 0.0);
+        assert!(face["side"] == 0 || face["side"] == 1);
+        for key in ["B_rgb", "stderr_rgb", "Kd_rgb", "Ke_rgb"] {
+            let colour = face[key].as_array().unwrap();
+            assert_eq!(colour.len(), 3, "{key}");
+            assert!(colour.iter().all(|x| x.as_f64().unwrap() >= 0.0), "{key}");
+        }
+    }
+    let wall = &faces[0];
+    assert_eq!(
+        (&wall["face_index"], &wall["area"]),
+        (&json!(0), &json!(4.0))
+    );
+    let (b, stderr) = (&wall["B_rgb"][0], &wall["stderr_rgb"][0]);
+    assert!(b.as_f64().unwrap() > 0.0);
+    let relative = stderr.as_f64().unwrap() / b.as_f64().unwrap();
+    assert!(relative > 0.0 && relative < 0.1, "{relative}");
+    let meta = &file["meta"];
+    assert_eq!(meta["scene"], "room.obj");
+    for key in ["rays", "seconds", "mean_stderr", "rounds", "threads"] {
+        assert!(meta[key].as_f64().unwrap() > 0.0, "{key}");
+    }
+    for key in ["certilux", "embree", "sides"] {
+        assert!(!meta[key].as_str().unwrap().is_empty(), "{key}");
+    }
+    assert_eq!(
+        folder.names("."),
+        ["ref.json", "room.mtl", "room.obj", "solved"]
+    );
+}
+
+#[test]
+fn the_same_faces_at_any_number_of_threads() {
+    let folder = Folder::new();
+    write_room(&folder);
+    for threads in ["1", "3"] {
+        let line = format!(
+            "reference room.obj --out {threads}.json --error 0.1 --faces 3 --seed 7 --sides one --quiet --threads {threads}"
+        );
+        let run = folder.line(&line);
+        run.ends_with(0, &line);
+        assert!(run.stdout.is_empty() && run.stderr.is_empty());
+    }
+    let [one, three] = ["1.json", "3.json"].map(|f| reference(&folder, f));
+    assert_eq!(one["faces"], three["faces"]);
+    assert_eq!(one["faces"].as_array().unwrap().len(), 3);
+    assert_eq!(one["meta"]["rays"], three["meta"]["rays"]);
+    assert_eq!(one["meta"]["sides"], "one");
+}
+
+#[test]
+fn time_is_kept() {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder
+        .line("reference room.obj --out ref.json --error 1e-7 --max-seconds 0.3")
+        .ends_with(0, "a second");
+    assert_eq!(reference(&folder, "ref.json")["meta"]["reached"], false);
+}
+
+#[test]
+fn a_solution_is_compared() {
+    let folder = measured_room();
+    let run = folder.line("error solved ref.json --json error.json");
+    run.ends_with(0, "error");
+    let figures = reference(&folder, "error.json");
+    let rms = figures["relative_rms"].as_f64().unwrap();
+    assert!(rms > 0.0 && rms < 0.2, "{rms}");
+    assert!(figures["noise"].as_f64().unwrap() > 0.0);
+    assert!(
+        run.stdout.contains(&format!("{:.4} %", 100.0 * rms)),
+        "{}",
+        run.stdout
+    );
+    assert!(run.stdout.contains("bias") && run.stdout.contains("noise"));
+
+    let file = folder.line("error solved/solution.ply ref.json");
+    assert_eq!(file.ends_with(0, "file").stdout, run.stdout);
+    let line = format!("error solved ref.json --max {}", 1.01 * rms);
+    folder.line(&line).ends_with(0, &line);
+    let line = format!("error solved ref.json --max {}", 0.99 * rms);
+    folder.line(&line).ends_with(1, &line).says(&["above"]);
+}
+
+/// A reference of two faces of the room, written by hand.
+fn by_hand(material: bool) -> Value {
+    let mut faces = json!([
+        { "face_index": 0, "area": 4.0, "B_rgb": [1, 2, 3], "stderr_rgb": [0, 0, 0] },
+        { "face_index": 5, "side": 0, "area": 4.0, "B_rgb": [2, 2, 2], "stderr_rgb": [0.1, 0.1, 0.1] },
+        { "face_index": 6, "area": 0.25, "B_rgb": [40, 40, 40], "stderr_rgb": [0, 0, 0] },
+    ]);
+    if material {
+        for (i, face) in faces.as_array_mut().unwrap().iter_mut().enumerate() {
+            let (kd, ke) = if i == 2 { (0.0, 10.0) } else { (0.5, 0.0) };
+            face["Kd_rgb"] = json!([kd, kd, kd]);
+            face["Ke_rgb"] = json!([ke, ke, ke]);
+        }
+    }
+    json!({ "faces": faces })
+}
+
+#[test]
+fn references_of_others_need_the_scene_for_their_materials() {
+    let folder = measured_room();
+    folder.write("full.json", by_hand(true).to_string());
+    folder.write("bare.json", by_hand(false).to_string());
+    let full = folder.line("error solved full.json");
+    full.ends_with(0, "full");
+    assert!(
+        full.stdout.contains(" 2 faces"),
+        "the lamp reflects nothing: {}",
+        full.stdout
+    );
+    folder
+        .line("error solved bare.json")
+        .ends_with(2, "bare")
+        .says(&["face 0", "--scene"]);
+    let bare = folder.line("error solved bare.json --scene room.obj");
+    assert_eq!(bare.ends_with(0, "bare").stdout, full.stdout);
+}
+
+#[test]
+fn missing_faces_are_named() {
+    let folder = measured_room();
+    let mut file = by_hand(true);
+    file["faces"][1]["face_index"] = json!(77);
+    file["faces"][0]["side"] = json!(1);
+    folder.write("ref.json", file.to_string());
+    let run = folder.line("error solved ref.json --json error.json");
+    run.ends_with(0, "missing")
+        .says(&["2 of 2", "0 (back)", "77"]);
+    let figures = reference(&folder, "error.json");
+    assert_eq!(figures["bias"], -1.0);
+}
+
+#[test]
+fn invalid_files_are_refused_with_the_reason() {
+    let folder = measured_room();
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut file = by_hand(true);
+        change(&mut file);
+        file.to_string()
+    };
+    for (content, words) in [
+        (String::new(), "not a reference"),
+        ("{".to_owned(), "not a reference"),
+        ("\0\u{1}".to_owned(), "not a reference"),
+        ("{\"faces\": []}".to_owned(), "no faces"),
+        ("{\"meta\": {}}".to_owned(), "faces"),
+        (with(&|f| f["faces"][0]["area"] = json!(0)), "area"),
+        (with(&|f| f["faces"][0]["area"] = json!(-1)), "area"),
+        (with(&|f| f["faces"][0]["side"] = json!(2)), "side"),
+        (
+            with(&|f| f["faces"][0]["B_rgb"] = json!([1, 2])),
+            "not a reference",
+        ),
+        (
+            with(&|f| f["faces"][0]["B_rgb"] = json!([1, 2, -3])),
+            "B_rgb",
+        ),
+        (
+            with(&|f| f["faces"][0]["stderr_rgb"] = json!([null, 0, 0])),
+            "not a reference",
+        ),
+        (with(&|f| f["faces"][1]["face_index"] = json!(0)), "before"),
+        (
+            with(&|f| f["faces"][1]["face_index"] = json!(-1)),
+            "not a reference",
+        ),
+        (
+            by_hand(true).to_string().replacen("4.0", "1e999", 1),
+            "not a reference",
+        ),
+        (
+            with(&|f| {
+                for face in f["faces"].as_array_mut().unwrap() {
+                    face["Kd_rgb"] = json!([0, 0, 0]);
+                }
+            }),
+            "reflectance",
+        ),
+        (
+            with(&|f| {
+                for face in f["faces"].as_array_mut().unwrap() {
+                    face["B_rgb"] = json!([0, 0, 0]);
+                }
+            }),
+            "no relative error",
+        ),
+    ] {
+        folder.write("bad.json", &content);
+        folder
+            .line("error solved bad.json")
+            .ends_with(2, &content)
+            .says(&[words]);
+    }
+    folder.write("full.json", by_hand(true).to_string());
+    for line in [
+        "error nowhere full.json",
+        "error solved nowhere.json",
+        "error solved/stats.json full.json",
+        "error solved full.json --max NaN",
+        "error solved full.json --max -1",
+        "error solved full.json --max inf",
+        "error solved full.json --scene nowhere.obj",
+    ] {
+        let run = folder.line(line);
+        run.ends_with(2, line);
+        assert!(!run.stderr.is_empty(), "{line}");
+    }
+}
+
+#[test]
+fn settings_out_of_range_write_nothing() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let before = folder.names(".");
+    for flags in [
+        "--error 0",
+        "--error -1",
+        "--error NaN",
+        "--error inf",
+        "--max-seconds 0",
+        "--max-seconds -5",
+        "--max-seconds NaN",
+        "--faces 0",
+        "--faces -1",
+        "--faces 1.5",
+        "--seed -1",
+        "--sides both",
+        "--threads x",
+    ] {
+        let line = format!("reference room.obj --out ref.json {flags}");
+        folder.line(&line).ends_with(2, &line);
+    }
+    folder
+        .line("reference nowhere.obj --out ref.json")
+        .ends_with(2, "no scene");
+    folder
+        .line("reference room.obj --error 0.5 --out no/such/folder/ref.json")
+        .ends_with(3, "no folder")
+        .says(&["no/such/folder"]);
+    assert_eq!(folder.names("."), before);
+}
