@@ -36,4 +36,18 @@ impl SampleSequence {
             (bits >> 8) as f32 * (1.0 / 16_777_216.0)
         })
     }
+
+    /// Points `index` to `index + 7`, coordinate by coordinate.
+    #[inline]
+    pub fn points(&self, index: u32) -> [[f32; 8]; 4] {
+        let mut points = [[0.0; 8]; 4];
+        for d in 0..4 {
+            let first = self.shift[d].wrapping_add(Self::STEP[d].wrapping_mul(index));
+            for l in 0..8 {
+                let bits = first.wrapping_add(Self::STEP[d].wrapping_mul(l as u32));
+                points[d][l] = (bits >> 8) as f32 * (1.0 / 16_777_216.0);
+            }
+        }
+        points
+    }
 }

@@ -6,8 +6,9 @@
 //! cos cos / (pi r^2). Everything is a *vector* K with irradiance n . K, so that one evaluation
 //! serves every normal of a receiving cluster that has the source wholly in front.
 
+use super::composite_rule::{CompositeRule, MOST_POINTS, three_points};
 use super::element::{Element, Shape};
-use super::solution::split_triangle;
+use super::irradiance_kernel::{Shining, irradiance_on};
 use crate::cluster::Hierarchy;
 use crate::math::NodeId;
 use crate::scene::Scene;
@@ -15,9 +16,9 @@ use glam::Vec3;
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// Beyond this many radii a three-point rule of degree 2 errs by less than (1/12)^4 = 5e-5.
-const CONTOUR_RADII: f32 = 12.0;
+pub(super) const CONTOUR_RADII: f32 = 12.0;
 /// Beyond this many radii the centroid alone errs by less than half (1/40)^2 = 3e-4.
-const POINT_RADII: f32 = 40.0;
+pub(super) const POINT_RADII: f32 = 40.0;
 /// A cluster is taken as one flux vector beyond this many radii (its radius bounds its box, about
 /// twice its radius of gyration, so the error is below (1/24)^2 = 2e-3), else as its two children.
 const CLUSTER_RADII: f32 = 12.0;
@@ -236,53 +237,49 @@ pub fn arrival(
     let gap = source.bounds.distance(receiver.bounds);
     match receiver.shape {
         Shape::Triangle(corners) => {
-            let n = receiver.normal;
-            let at = |p: Vec3| {
-                n.dot(element_vector(space, source, p, Some(n), flatness.source))
-                    .max(0.0)
-            };
             if gap > 10.0 * receiver.radius {
-                return (Arrival::Linear([at(receiver.centroid); 3]), 0.0);
+                let n = receiver.normal;
+                let at = receiver.centroid;
+                let vector = element_vector(space, source, at, Some(n), flatness.source);
+                return (Arrival::Linear([n.dot(vector).max(0.0); 3]), 0.0);
             }
-            let splits = if gap > 1.5 * receiver.radius {
-                0
-            } else if gap > 0.25 * receiver.radius {
-                1
-            } else {
-                2
-            };
-            let whole = [Vec3::X, Vec3::Y, Vec3::Z];
-            let mut samples = Samples::default();
-            samples.take(&at, corners, whole, splits);
-            let moments = samples.moments();
+            let rule = CompositeRule::on_parts(splits_at(gap, receiver.radius));
+            let mut values = [[0.0f32; 8]; MOST_POINTS / 8];
+            let values = &mut values[..rule.octets.len()];
+            irradiance_at(
+                space,
+                source,
+                receiver,
+                corners,
+                flatness.source,
+                rule,
+                values,
+            );
+            let moments = rule.moments(values);
             // Least squares over the linear functions: the mass matrix of a triangle is
             // area/12 (I + 1 1^T), its inverse 12/area (I - 1 1^T / 4).
             let mean = moments.x + moments.y + moments.z;
             let fit = 12.0 * moments - Vec3::splat(3.0 * mean);
-            if mean <= 0.0 {
-                // Every point of the receiver may have missed the spot.
-                let spot = match source.shape {
-                    Shape::Triangle(from) if source.area < SPOT_AREA * receiver.area => {
-                        spot_mean(source, from, receiver, corners, gap, space.tau)
-                    }
-                    _ => 0.0,
-                };
-                return (Arrival::Linear([spot; 3]), spot);
-            }
-            let residual = if splits == 0 {
-                // Three points always lie on a linear function: ask a fourth.
-                (at(receiver.centroid) - mean).abs()
-            } else {
-                samples.residual(fit)
-            };
             // A source much smaller than its receiver, and near it, lights a spot that the receiver's points
             // may miss or hit too often: the mean is then taken from the source's side.
-            let scale = match source.shape {
+            let spot = match source.shape {
                 Shape::Triangle(from) if source.area < SPOT_AREA * receiver.area => {
-                    spot_mean(source, from, receiver, corners, gap, space.tau) / mean
+                    Some(spot_mean(source, from, receiver, corners, gap, space.tau))
                 }
-                _ => 1.0,
+                _ => None,
             };
+            if mean <= 0.0 {
+                // Every point of the receiver may have missed the spot.
+                let spot = spot.unwrap_or(0.0);
+                return (Arrival::Linear([spot; 3]), spot);
+            }
+            let residual = if rule.count == 3 {
+                // Three points always lie on a linear function: ask the centroid, a fourth.
+                (values[0][3] - mean).abs()
+            } else {
+                rule.residual(values, fit)
+            };
+            let scale = spot.map_or(1.0, |spot| spot / mean);
             (Arrival::Linear((fit * scale).to_array()), residual)
         }
         Shape::Cluster if !flatness.receiver => {
@@ -314,94 +311,65 @@ fn spot_mean(
     gap: f32,
     tau: f32,
 ) -> f32 {
-    let n = source.normal;
-    let at = |p: Vec3| {
-        let k = triangle_vector(
-            receiver_corners,
-            receiver.normal,
-            receiver.area,
-            p,
-            Some(n),
-            tau,
-        );
-        n.dot(k).max(0.0)
+    let rule = CompositeRule::on_parts(splits_at(gap, source.radius));
+    let mut values = [[0.0f32; 8]; MOST_POINTS / 8];
+    let values = &mut values[..rule.octets.len()];
+    let shining = Shining {
+        corners: receiver_corners,
+        normal: receiver.normal,
+        area: receiver.area,
     };
-    let splits = if gap > 1.5 * source.radius {
+    irradiance_on(
+        &shining,
+        source_corners,
+        source.normal,
+        tau,
+        &rule.octets,
+        values,
+    );
+    let moments = rule.moments(values);
+    (moments.x + moments.y + moments.z) * source.area / receiver.area
+}
+
+/// How often the receiver is split for its points: the nearer, in its radii, the more often.
+fn splits_at(gap: f32, radius: f32) -> usize {
+    if gap > 1.5 * radius {
         0
-    } else if gap > 0.25 * source.radius {
+    } else if gap > 0.25 * radius {
         1
     } else {
         2
-    };
-    let mut samples = Samples::default();
-    samples.take(&at, source_corners, [Vec3::X, Vec3::Y, Vec3::Z], splits);
-    samples.mean() * source.area / receiver.area
+    }
 }
 
-/// Irradiance at the points of a composite rule on a receiver: at most 16 parts of 3 points.
-struct Samples {
-    count: usize,
-    /// The receiver's barycentric coordinates of each point.
-    lambda: [Vec3; 48],
-    irradiance: [f32; 48],
-}
-
-impl Default for Samples {
-    fn default() -> Self {
-        Self {
-            count: 0,
-            lambda: [Vec3::ZERO; 48],
-            irradiance: [0.0; 48],
+/// Irradiance from a unit-radiosity source at the points of a rule on a triangle.
+fn irradiance_at(
+    space: &Space,
+    source: &Element,
+    receiver: &Element,
+    corners: [Vec3; 3],
+    flat: bool,
+    rule: &CompositeRule,
+    values: &mut [[f32; 8]],
+) {
+    let n = receiver.normal;
+    if let Shape::Triangle(from) = source.shape {
+        let shining = Shining {
+            corners: from,
+            normal: source.normal,
+            area: source.area,
+        };
+        return irradiance_on(&shining, corners, n, space.tau, &rule.octets, values);
+    }
+    for (octet, values) in rule.octets.iter().zip(values) {
+        for (l, value) in values.iter_mut().enumerate() {
+            let [a, b, c] = corners;
+            let p = a * octet[0][l] + b * octet[1][l] + c * octet[2][l];
+            *value = n
+                .dot(element_vector(space, source, p, Some(n), flat))
+                .max(0.0);
         }
     }
-}
-
-impl Samples {
-    /// Evaluates the degree-2 rule on the 4^splits parts of a triangle; `lambda` holds the receiver's
-    /// barycentric coordinates of its corners.
-    fn take(
-        &mut self,
-        irradiance: &impl Fn(Vec3) -> f32,
-        corners: [Vec3; 3],
-        lambda: [Vec3; 3],
-        splits: u32,
-    ) {
-        if splits > 0 {
-            for k in 0..4 {
-                let (part, weights) = (split_triangle(corners, k), split_triangle(lambda, k));
-                self.take(irradiance, part, weights, splits - 1);
-            }
-            return;
-        }
-        for (point, weight) in three_points(corners).into_iter().zip(three_points(lambda)) {
-            self.lambda[self.count] = weight;
-            self.irradiance[self.count] = irradiance(point);
-            self.count += 1;
-        }
-    }
-
-    /// Means of irradiance times each barycentric coordinate.
-    fn moments(&self) -> Vec3 {
-        let points = self.lambda[..self.count].iter().zip(&self.irradiance);
-        points.map(|(&w, &e)| w * e).sum::<Vec3>() / self.count as f32
-    }
-
-    /// Mean irradiance.
-    fn mean(&self) -> f32 {
-        self.irradiance[..self.count].iter().sum::<f32>() / self.count as f32
-    }
-
-    /// Greatest distance of a sample from the linear function with these corner values.
-    fn residual(&self, fit: Vec3) -> f32 {
-        let points = self.lambda[..self.count].iter().zip(&self.irradiance);
-        points.fold(0.0, |m, (&w, &e)| m.max((e - w.dot(fit)).abs()))
-    }
-}
-
-/// Midpoints between centroid and corners: the degree-2 rule on a triangle, equal weights.
-fn three_points([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
-    let g = (a + b + c) * (1.0 / 3.0);
-    [(g + a) * 0.5, (g + b) * 0.5, (g + c) * 0.5]
 }
 
 /// Area times mean irradiance vector of a receiving cluster, from the nodes `levels` below.

@@ -2,6 +2,7 @@
 
 mod claim_check;
 mod claims;
+mod composite_rule;
 mod config;
 mod element;
 mod element_name;
@@ -10,6 +11,7 @@ mod error;
 mod fixture;
 mod form_factor;
 mod guarantees;
+mod irradiance_kernel;
 mod ledger;
 mod observer;
 mod oracle;

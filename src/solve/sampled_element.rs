@@ -9,7 +9,7 @@ use super::radiosity::Shooter;
 use super::solution::split_triangle;
 use crate::cluster::Hierarchy;
 use crate::scene::Scene;
-use crate::visibility::{Surface, SurfacePoint};
+use crate::visibility::{PointOctet, Surface};
 use glam::Vec3;
 
 /// A receiver.
@@ -27,21 +27,18 @@ pub struct ReceiverSurface<'a> {
 }
 
 impl Surface for ReceiverSurface<'_> {
-    fn point(&self, u: f32, v: f32) -> SurfacePoint {
+    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+        let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
-            return SurfacePoint {
-                position: triangle_point(corners, u, v),
-                normal: self.element.normal,
-                light: 1.0,
-            };
+            return PointOctet::of_triangle(corners, normal, u, v);
         }
-        let (facet, rest) = choose_facet(self.element, self.area_before, u);
-        let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
-        SurfacePoint {
-            position: triangle_point(corners, rest, v),
-            normal: self.normals[facet],
-            light: 1.0,
+        let mut points = PointOctet::of_triangle([self.element.centroid; 3], normal, u, v);
+        for l in 0..8 {
+            let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
+            let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
+            points.set(l, corners, self.normals[facet], [rest, v[l]], 1.0);
         }
+        points
     }
 }
 
@@ -72,28 +69,45 @@ pub struct SourceSurface<'a, const C: usize> {
 }
 
 impl<const C: usize> Surface for SourceSurface<'_, C> {
-    fn point(&self, u: f32, v: f32) -> SurfacePoint {
+    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+        let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
-            return self.patch_point(self.owner, self.slot, corners, self.element.normal, [u, v]);
+            let mut points = PointOctet::of_triangle(corners, normal, u, v);
+            let shooter = &self.shooters[self.owner as usize];
+            if shooter.children[self.slot as usize] == 0 {
+                return points;
+            }
+            for l in 0..8 {
+                let at = (self.owner, self.slot);
+                self.set_patch_point(&mut points, l, at, corners, normal, [u[l], v[l]]);
+            }
+            return points;
         }
-        let (facet, rest) = choose_facet(self.element, self.area_before, u);
-        let owner = self.owner_of_facet[facet];
-        let slot = facet as u32 - self.first_facets[owner as usize];
-        let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
-        self.patch_point(owner, slot, corners, self.normals[facet], [rest, v])
+        let mut points = PointOctet::of_triangle([self.element.centroid; 3], normal, u, v);
+        for l in 0..8 {
+            let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
+            let owner = self.owner_of_facet[facet];
+            let slot = facet as u32 - self.first_facets[owner as usize];
+            let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
+            let normal = self.normals[facet];
+            self.set_patch_point(&mut points, l, (owner, slot), corners, normal, [rest, v[l]]);
+        }
+        points
     }
 }
 
 impl<const C: usize> SourceSurface<'_, C> {
-    /// A point of a frozen patch: down its split with `u`, whose four children have equal areas.
-    fn patch_point(
+    /// Puts a point of a frozen patch into lane `l`: down its split with `u`, whose four children have equal
+    /// areas.
+    fn set_patch_point(
         &self,
-        owner: u32,
-        slot: u32,
+        points: &mut PointOctet,
+        l: usize,
+        (owner, slot): (u32, u32),
         mut corners: [Vec3; 3],
         normal: Vec3,
         [mut u, v]: [f32; 2],
-    ) -> SurfacePoint {
+    ) {
         let shooter = &self.shooters[owner as usize];
         let mut slot = slot as usize;
         while shooter.children[slot] != 0 {
@@ -102,11 +116,8 @@ impl<const C: usize> SourceSurface<'_, C> {
             corners = split_triangle(corners, which);
             slot = (shooter.children[slot] + which) as usize;
         }
-        SurfacePoint {
-            position: triangle_point(corners, u, v),
-            normal,
-            light: shooter.unshot[slot].iter().sum::<f32>() / self.radiosity,
-        }
+        let light = shooter.unshot[slot].iter().sum::<f32>() / self.radiosity;
+        points.set(l, corners, normal, [u, v], light);
     }
 }
 
@@ -126,14 +137,4 @@ fn choose_facet(element: &Element, before: &[f64], u: f32) -> (usize, f32) {
         0.5
     };
     (first + chosen, rest.clamp(0.0, BELOW_ONE))
-}
-
-/// Uniform point of a triangle from a point of the unit square, folded along its diagonal.
-fn triangle_point([a, b, c]: [Vec3; 3], u: f32, v: f32) -> Vec3 {
-    let (u, v) = if u + v > 1.0 {
-        (1.0 - u, 1.0 - v)
-    } else {
-        (u, v)
-    };
-    a + (b - a) * u + (c - a) * v
 }

@@ -26,7 +26,7 @@ pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, 
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
 pub use sampling::{
-    AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, Surface, SurfacePoint,
+    AllClear, LEAST_COSINE, PointOctet, SampleOctet, SampledVisibility, SegmentTest, Surface,
     sample_visibility,
 };
 pub use scene_tree::SceneTree;

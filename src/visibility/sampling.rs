@@ -9,6 +9,9 @@
 //! No ray excludes a polygon by identity. It is trimmed where its depth below the plane of the
 //! sample at either end exceeds tau: t = tau / cos on both sides.
 
+// Lanes of several arrays run in step: an index says so, and is what vectorises.
+#![allow(clippy::needless_range_loop)]
+
 use super::blockers::{BlockerList, SegmentOctet};
 use crate::embree::{CommittedScene, RayPacket8};
 use crate::math::SampleSequence;
@@ -26,15 +29,6 @@ pub struct SampleOctet {
 }
 
 impl SampleOctet {
-    const EMPTY: Self = Self {
-        segments: SegmentOctet {
-            from: [[0.0; 8]; 3],
-            to: [[0.0; 8]; 3],
-        },
-        near: [0.0; 8],
-        far: [-1.0; 8],
-    };
-
     /// Start of a lane's segment.
     pub fn from(&self, lane: usize) -> Vec3 {
         Vec3::from_array(self.segments.from.map(|axis| axis[lane]))
@@ -94,21 +88,67 @@ impl SegmentTest for AllClear {
     }
 }
 
-/// A point of an element with the unit normal of the facet that it lies on.
+/// Eight points of an element, coordinate by coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfacePoint {
-    /// Normalised position.
-    pub position: Vec3,
-    /// Unit normal of its facet, on the facet's side.
-    pub normal: Vec3,
-    /// Light that it sends, over its element's mean; 1 for receivers.
-    pub light: f32,
+pub struct PointOctet {
+    /// Normalised positions.
+    pub position: [[f32; 8]; 3],
+    /// Unit normals of their facets, on the facets' sides.
+    pub normal: [[f32; 8]; 3],
+    /// Light that they send, over their element's mean; 1 for receivers.
+    pub light: [f32; 8],
+}
+
+impl PointOctet {
+    /// Eight points of one triangle with the given unit normal, uniform where `(u, v)` is uniform in the unit
+    /// square, which is folded along its diagonal.
+    #[inline]
+    pub fn of_triangle(corners: [Vec3; 3], normal: Vec3, u: &[f32; 8], v: &[f32; 8]) -> Self {
+        let [a, b, c] = corners.map(|p| p.to_array());
+        let mut position = [[0.0; 8]; 3];
+        for axis in 0..3 {
+            let (along, across) = (b[axis] - a[axis], c[axis] - a[axis]);
+            for l in 0..8 {
+                let fold = u[l] + v[l] > 1.0;
+                let u = if fold { 1.0 - u[l] } else { u[l] };
+                let v = if fold { 1.0 - v[l] } else { v[l] };
+                position[axis][l] = a[axis] + along * u + across * v;
+            }
+        }
+        Self {
+            position,
+            normal: normal.to_array().map(|n| [n; 8]),
+            light: [1.0; 8],
+        }
+    }
+
+    /// Replaces lane `l` by a point of a triangle, as [`Self::of_triangle`] does.
+    pub fn set(
+        &mut self,
+        l: usize,
+        corners: [Vec3; 3],
+        normal: Vec3,
+        [u, v]: [f32; 2],
+        light: f32,
+    ) {
+        let [a, b, c] = corners;
+        let (u, v) = match u + v > 1.0 {
+            true => (1.0 - u, 1.0 - v),
+            false => (u, v),
+        };
+        let position = a + (b - a) * u + (c - a) * v;
+        for axis in 0..3 {
+            self.position[axis][l] = position[axis];
+            self.normal[axis][l] = normal[axis];
+        }
+        self.light[l] = light;
+    }
 }
 
 /// An element that can be sampled uniformly by area.
 pub trait Surface {
-    /// The point at `(u, v)` in [0,1)^2; uniform in gives uniform out.
-    fn point(&self, u: f32, v: f32) -> SurfacePoint;
+    /// The points at eight `(u, v)` in [0,1)^2; uniform in gives uniform out.
+    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet;
 }
 
 /// What the samples of an exchange said.
@@ -156,38 +196,29 @@ pub fn sample_visibility(
         let end = index + rays;
         while index < end {
             let lanes = (end - index).min(8);
-            let mut octet = SampleOctet::EMPTY;
-            let mut active = 0u8;
-            let mut weights = [0.0f32; 8];
-            for (lane, weight) in weights.iter_mut().enumerate().take(lanes as usize) {
-                let [u, v, s, t] = sequence.point(index + lane as u32);
-                let from = source.point(u, v);
-                let to = receiver.point(s, t);
-                let Some(segment) = trim(from, to, tau) else {
-                    continue;
-                };
-                *weight = segment.weight * from.light;
-                total_weight += segment.weight;
-                if segment.near < segment.far {
-                    for axis in 0..3 {
-                        octet.segments.from[axis][lane] = from.position[axis];
-                        octet.segments.to[axis][lane] = to.position[axis];
-                    }
-                    octet.near[lane] = segment.near;
-                    octet.far[lane] = segment.far;
-                    active |= 1 << lane;
-                }
+            let [u, v, s, t] = sequence.points(index);
+            let (from, to) = (source.points(&u, &v), receiver.points(&s, &t));
+            let trimmed = trim(&from, &to, tau, lanes);
+            for weight in trimmed.weight {
+                total_weight += weight;
             }
-            let blocked = if active == 0 {
-                0
-            } else {
-                test.blocked8(&octet, active)
+            let octet = SampleOctet {
+                segments: SegmentOctet {
+                    from: from.position,
+                    to: to.position,
+                },
+                near: trimmed.near,
+                far: trimmed.far,
             };
-            result.rays += active.count_ones();
+            let blocked = match trimmed.active {
+                0 => 0,
+                active => test.blocked8(&octet, active),
+            };
+            result.rays += trimmed.active.count_ones();
             result.rays_blocked += blocked.count_ones();
-            for (lane, weight) in weights.iter().enumerate() {
-                if blocked & (1 << lane) == 0 {
-                    clear_weight += weight;
+            for l in 0..8 {
+                if blocked & (1 << l) == 0 {
+                    clear_weight += trimmed.weight[l] * from.light[l];
                 }
             }
             index += lanes;
@@ -208,28 +239,48 @@ pub fn sample_visibility(
     result
 }
 
-/// A sample segment, trimmed at both ends.
-struct Segment {
-    near: f32,
-    far: f32,
-    weight: f32,
+/// Eight sample segments, trimmed at both ends.
+struct Trimmed {
+    near: [f32; 8],
+    far: [f32; 8],
+    /// The kernel cos cos / r^2 (up to a factor), 0 where no light is carried.
+    weight: [f32; 8],
+    /// Lanes with something left to test.
+    active: u8,
 }
 
-/// The ray from `from` (parameter 0) to `to` (parameter 1), or `None` where it carries no light.
-fn trim(from: SurfacePoint, to: SurfacePoint, tau: f32) -> Option<Segment> {
-    let direction = to.position - from.position;
-    // Depths of each end over the other's plane: distance times cosine.
-    let depth_from = from.normal.dot(direction);
-    let depth_to = -to.normal.dot(direction);
-    let r2 = direction.length_squared();
-    let least = LEAST_COSINE * r2.sqrt();
-    if depth_from <= least || depth_to <= least {
-        return None;
+/// The rays from `from` (parameter 0) to `to` (parameter 1) in the first `lanes` lanes.
+#[inline]
+fn trim(from: &PointOctet, to: &PointOctet, tau: f32, lanes: u32) -> Trimmed {
+    let mut trimmed = Trimmed {
+        near: [0.0; 8],
+        far: [-1.0; 8],
+        weight: [0.0; 8],
+        active: 0,
+    };
+    let (mut depth_from, mut depth_to, mut r2) = ([0.0f32; 8], [0.0f32; 8], [0.0f32; 8]);
+    for axis in 0..3 {
+        for l in 0..8 {
+            let along = to.position[axis][l] - from.position[axis][l];
+            // Depths of each end over the other's plane: distance times cosine.
+            depth_from[l] += from.normal[axis][l] * along;
+            depth_to[l] -= to.normal[axis][l] * along;
+            r2[l] += along * along;
+        }
     }
-    let weight = depth_from * depth_to / (r2 * r2);
-    (weight > 0.0 && weight.is_finite()).then_some(Segment {
-        near: tau / depth_from,
-        far: 1.0 - tau / depth_to,
-        weight,
-    })
+    let mut counts = [0u32; 8];
+    for l in 0..8 {
+        let least = LEAST_COSINE * r2[l].sqrt();
+        let carries = (depth_from[l] > least) & (depth_to[l] > least) & ((l as u32) < lanes);
+        // Both depths are positive where light is carried, so r2 is.
+        let weight = depth_from[l] * depth_to[l] / (r2[l] * r2[l]);
+        let carries = carries & (weight > 0.0) & (weight < f32::INFINITY);
+        let (near, far) = (tau / depth_from[l], 1.0 - tau / depth_to[l]);
+        trimmed.weight[l] = if carries { weight } else { 0.0 };
+        trimmed.near[l] = if carries { near } else { 0.0 };
+        trimmed.far[l] = if carries { far } else { -1.0 };
+        counts[l] = u32::from(carries & (near < far)) << l;
+    }
+    trimmed.active = counts.iter().sum::<u32>() as u8;
+    trimmed
 }
