@@ -6,8 +6,8 @@
 //! [`super::Tolerance`]: a surely blocked segment is blocked, a surely clear one is not, and nothing
 //! is excluded by identity.
 
-use super::crossing::{KnownPlane, known_plane};
 use super::scene_tree::SceneTree;
+use super::stored_polygon::{PlaneKnown, StoredPolygon};
 use super::survivors::SurvivorList;
 use super::wide_tree::ChildRef;
 use glam::{DVec3, Vec3};
@@ -83,8 +83,8 @@ impl BlockerList {
                 continue;
             }
             for lane in (0..8).filter(|lane| lanes & (1 << lane) != 0) {
-                let corners = scene.polygons[8 * reference.index() + lane].corners;
-                if self.blockers.len() == most || !self.push(corners, scene) {
+                let polygon = &scene.polygons[8 * reference.index() + lane];
+                if self.blockers.len() == most || !self.push(polygon) {
                     return false;
                 }
             }
@@ -92,13 +92,13 @@ impl BlockerList {
         true
     }
 
-    fn push(&mut self, corners: [Vec3; 3], scene: &SceneTree) -> bool {
-        let v = corners.map(Vec3::as_dvec3);
-        let normal = match known_plane(v, &scene.tolerance) {
-            KnownPlane::Normal(normal) => normal,
-            KnownPlane::Noise => return false,
-            KnownPlane::Hairline => return true,
-        };
+    fn push(&mut self, polygon: &StoredPolygon) -> bool {
+        match polygon.known {
+            PlaneKnown::Broad | PlaneKnown::Narrow => {}
+            PlaneKnown::Noise => return false,
+            PlaneKnown::Hairline => return true,
+        }
+        let (v, normal) = (polygon.corners.map(Vec3::as_dvec3), polygon.normal);
         self.blockers.push(Blocker {
             normal,
             offset: normal.dot(v[0]),

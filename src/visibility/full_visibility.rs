@@ -4,15 +4,20 @@
 //! as it finds a box wholly inside or a polygon that may block. No polygon is excused by identity:
 //! those of a planar element drop out because the element lies in their plane
 //! ([`super::crossing`]), and those of a curved one stay, because self-occlusion is real.
+//!
+//! Most walks end early. A list handed down starts with what stood in the way of the pair above:
+//! where that crosses the segment between the centres, no shaft is made at all; and a list of few
+//! polygons goes through the slow test at once, which costs less than the planes of a shaft.
 
 use super::bounds::ElementBounds;
-use super::crossing::{has_depth_on_both_sides, may_block};
+use super::crossing::{blocks_centre_segment, may_block};
 use super::faults::Faults;
 use super::scene_tree::SceneTree;
 use super::shaft::Shaft;
-use super::shaft_planes::shaft_between;
+use super::shaft_planes::push_planes;
 use super::survivors::{SurvivorEntry, SurvivorList, SurvivorOctet};
 use super::verdict::Verdict;
+use super::wide_corners::WideCorners;
 use super::wide_tree::{BoxOctet, ChildRef};
 use crate::math::PolygonId;
 use pulp::{Arch, Simd, WithSimd};
@@ -52,6 +57,13 @@ pub struct VisibilityAnswer {
     /// Polygons that went through the slow test.
     pub polygons: u32,
 }
+
+/// Polygons of a list up to which no shaft is made: its planes cost as much as about five slow tests.
+const FEW_POLYGONS: u32 = 5;
+
+/// Octets of a list up to which a blocked centre segment ends the walk at once: the list is handed
+/// down without the sharper cut of a shaft, so it must not be long.
+const SHORT_LIST: usize = 4;
 
 /// What a caller lends to queries, so that none allocates. One a task.
 #[derive(Clone, Debug, Default)]
@@ -121,6 +133,7 @@ impl<'a> VisibilityQuery<'a> {
             outgoing,
             limits,
             stack: &mut scratch.stack,
+            wide: None,
             blocking_leaves: 0,
             answer: VisibilityAnswer {
                 verdict: Verdict::Unknown,
@@ -142,6 +155,8 @@ struct Walk<'a> {
     outgoing: &'a mut SurvivorList,
     limits: WalkLimits,
     stack: &'a mut Vec<Pending>,
+    /// The elements in f64, once a polygon has come up.
+    wide: Option<[WideCorners; 2]>,
     blocking_leaves: u32,
     answer: VisibilityAnswer,
 }
@@ -153,17 +168,71 @@ impl WithSimd for Walk<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) -> VisibilityAnswer {
-        let shaft = shaft_between(self.a, self.b, &self.query.scene.tolerance);
+        let tolerance = &self.query.scene.tolerance;
+        let mut shaft = Shaft::new(self.a, self.b, tolerance);
+        self.outgoing.clear();
+        self.stack.clear();
+        if self.blocked_as_above() {
+            self.hand_down(&shaft, 0);
+            return self.answer;
+        }
+        if !self.has_few_polygons() {
+            push_planes(&mut shaft, self.a, self.b, tolerance);
+        }
         self.run(&shaft);
         self.answer
     }
 }
 
 impl Walk<'_> {
+    /// True if the first polygons of the list cross the segment between the centres.
+    #[inline(always)]
+    fn blocked_as_above(&mut self) -> bool {
+        let scene = self.query.scene;
+        let octets = &self.incoming.octets;
+        if self.limits.blocking_leaves > 1 || octets.is_empty() || octets.len() > SHORT_LIST {
+            return false;
+        }
+        let entry = octets[0].entries[0];
+        if !entry.reference().is_leaf() {
+            return false;
+        }
+        self.answer.nodes += 1;
+        let (p, q) = (self.a.centre().as_dvec3(), self.b.centre().as_dvec3());
+        let mut lanes = entry.lanes;
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            let polygon = &scene.polygons[8 * entry.reference().index() + lane];
+            if self.query.faults.forgets_slivers() && is_sliver(polygon.corners) {
+                continue;
+            }
+            if blocks_centre_segment(polygon, p, q, &scene.tolerance) {
+                self.answer.obstacle = Some(polygon.id);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// True if the list holds no node and so few polygons that no shaft is worth its planes.
+    #[inline(always)]
+    fn has_few_polygons(&self) -> bool {
+        let [octet] = self.incoming.octets.as_slice() else {
+            return false;
+        };
+        let mut polygons = 0;
+        for entry in &octet.entries[..self.incoming.len()] {
+            if !entry.reference().is_leaf() {
+                return false;
+            }
+            polygons += entry.lanes.count_ones();
+        }
+        polygons <= FEW_POLYGONS
+    }
+
     #[inline(always)]
     fn run(&mut self, shaft: &Shaft) {
-        self.outgoing.clear();
-        self.stack.clear();
         let incoming = self.incoming;
         for (index, octet) in incoming.octets.iter().enumerate() {
             let met = self.open_octet(shaft, index as u32, octet);
@@ -201,18 +270,21 @@ impl Walk<'_> {
         if met == 0 {
             return true;
         }
-        let inside = shaft.contains_boxes(boxes, met);
+        let mut nodes = 0;
         let mut rest = met;
         while rest != 0 {
             let lane = 31 - rest.leading_zeros();
             rest &= !(1 << lane);
-            self.stack.push(Pending {
-                entry: entry(lane as usize),
-                home,
-                lane,
-            });
+            let entry = entry(lane as usize);
+            nodes |= u32::from(!entry.reference().is_leaf()) << lane;
+            self.stack.push(Pending { entry, home, lane });
         }
-        if inside == 0 || self.limits.blocking_leaves > 1 {
+        // Opening a leaf costs no more than finding it inside.
+        if nodes == 0 || self.limits.blocking_leaves > 1 {
+            return true;
+        }
+        let inside = shaft.contains_boxes(boxes, nodes);
+        if inside == 0 {
             return true;
         }
         let lane = inside.trailing_zeros() as usize;
@@ -263,8 +335,14 @@ impl Walk<'_> {
     fn open_leaf(&mut self, shaft: &Shaft, leaf: ChildRef, lanes: u32) -> bool {
         let scene = self.query.scene;
         self.answer.nodes += 1;
-        let (met, deep) = shaft.meets_triangles(&scene.octets[leaf.index()]);
-        let mut candidates = met & lanes;
+        let mut candidates = shaft.meets_triangles(&scene.octets[leaf.index()]) & lanes;
+        if candidates == 0 {
+            return true;
+        }
+        let (a, b) = (self.a, self.b);
+        let wide = self
+            .wide
+            .get_or_insert_with(|| [WideCorners::new(a), WideCorners::new(b)]);
         let mut blocking = 0;
         let collect = self.limits.blocking_leaves > 1;
         while candidates != 0 && (collect || blocking == 0) {
@@ -275,12 +353,7 @@ impl Walk<'_> {
             if self.query.faults.forgets_slivers() && is_sliver(polygon.corners) {
                 continue;
             }
-            // With a corner deep inside the shaft only its plane can excuse a polygon.
-            let blocks = if deep & (1 << lane) != 0 {
-                has_depth_on_both_sides(polygon.corners, self.a, self.b, &scene.tolerance)
-            } else {
-                may_block(polygon.corners, self.a, self.b, &scene.tolerance)
-            };
+            let blocks = may_block(polygon, &wide[0], &wide[1], &scene.tolerance);
             if blocks {
                 blocking |= 1 << lane;
                 self.answer.obstacle = Some(polygon.id);

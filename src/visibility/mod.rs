@@ -13,9 +13,11 @@ mod sampling;
 mod scene_tree;
 mod shaft;
 mod shaft_planes;
+mod stored_polygon;
 mod survivors;
 mod tolerance;
 mod verdict;
+mod wide_corners;
 mod wide_tree;
 mod wide_tree_builder;
 

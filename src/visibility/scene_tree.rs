@@ -6,11 +6,12 @@
 //! and no identity of polygons is needed to say so.
 
 use super::shaft::TriangleOctet;
+use super::stored_polygon::StoredPolygon;
 use super::tolerance::Tolerance;
 use super::wide_tree::{BoxOctet, ChildRef, WideLeaf, WideTree};
 use crate::math::{Aabb, PolygonId};
 use crate::scene::Scene;
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 /// The polygons of a scene, ready to be queried.
 #[derive(Clone, Debug)]
@@ -24,45 +25,9 @@ pub struct SceneTree {
     bounds: Aabb,
 }
 
-/// A polygon of a leaf.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct StoredPolygon {
-    pub corners: [Vec3; 3],
-    pub id: PolygonId,
-}
-
-impl StoredPolygon {
-    const NONE: Self = Self {
-        corners: [Vec3::ZERO; 3],
-        id: PolygonId(u32::MAX),
-    };
-}
-
 /// Share of the weld distance by which polygons are pulled in. The rest, a quarter of 1e-6 of the
 /// diagonal, is more than rounding the pulled-in corners to f32 can move them (5.2e-8 of it).
-const PULL: f64 = 0.75;
-
-/// Polygons whose inscribed circle is smaller than this many weld distances stay as they are: many
-/// slivers side by side are a wall too, and pulling all of them in would open it.
-const LEAST_INRADIUS: f64 = 16.0;
-
-/// `corners` moved inwards by [`PULL`] `weld`: the triangle shrunk about its incentre, in f64. The
-/// same triangle where it is too thin.
-pub(super) fn pulled_in(corners: [Vec3; 3], weld: f32) -> [DVec3; 3] {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let (la, lb, lc) = ((b - c).length(), (c - a).length(), (a - b).length());
-    let perimeter = la + lb + lc;
-    let inradius = (b - a).cross(c - a).length() / perimeter;
-    let weld = f64::from(weld);
-    // Written so that NaN, of a polygon shrunk to a point, keeps it as it is.
-    let wide = inradius > LEAST_INRADIUS * weld;
-    if !wide {
-        return [a, b, c];
-    }
-    let incentre = (a * la + b * lb + c * lc) / perimeter;
-    let keep = 1.0 - PULL * weld / inradius;
-    [a, b, c].map(|p| incentre + (p - incentre) * keep)
-}
+pub(super) const PULL: f64 = 0.75;
 
 impl SceneTree {
     /// The hierarchy over all polygons of `scene`.
@@ -76,9 +41,14 @@ impl SceneTree {
 
     /// The hierarchy over loose triangles, whose indices become their ids.
     pub fn over_triangles(triangles: &[[Vec3; 3]], tolerance: Tolerance) -> Self {
-        let pulled: Vec<[Vec3; 3]> = triangles
+        let stored: Vec<StoredPolygon> = triangles
             .iter()
-            .map(|&t| pulled_in(t, tolerance.weld).map(|p| p.as_vec3()))
+            .zip(0_u32..)
+            .map(|(&t, id)| StoredPolygon::new(t, PolygonId(id), &tolerance))
+            .collect();
+        let pulled: Vec<[Vec3; 3]> = stored
+            .iter()
+            .map(|p| p.pulled_in(&tolerance).map(|p| p.as_vec3()))
             .collect();
         let boxes: Vec<Aabb> = pulled.iter().map(|&t| Aabb::from_points(t)).collect();
         let tree = WideTree::build(&boxes);
@@ -93,10 +63,7 @@ impl SceneTree {
             .flat_map(|leaf| leaf.primitives)
             .map(|id| match id {
                 WideLeaf::NONE => StoredPolygon::NONE,
-                _ => StoredPolygon {
-                    corners: triangles[id as usize],
-                    id: PolygonId(id),
-                },
+                _ => stored[id as usize],
             })
             .collect();
         Self {

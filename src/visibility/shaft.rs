@@ -35,6 +35,8 @@ pub(super) struct Shaft {
     rounding: f32,
     nesting: f32,
     clearance: f32,
+    /// False for the box of the union alone, which says only what is outside.
+    has_planes: bool,
 }
 
 /// Eight triangles in structure-of-arrays form.
@@ -73,7 +75,13 @@ impl Shaft {
             rounding,
             nesting: tolerance.nesting,
             clearance,
+            has_planes: false,
         }
+    }
+
+    /// All planes are in: what is inside all of them is inside the shaft.
+    pub(super) fn complete(&mut self) {
+        self.has_planes = true;
     }
 
     /// Adds the plane with this outward normal (any length, not zero) that touches the hull.
@@ -102,10 +110,10 @@ impl Shaft {
                     u32::from(boxes.min[axis][l] > high) | u32::from(boxes.max[axis][l] < low);
             }
         }
-        if all_set(&out) {
-            return 0;
-        }
         for k in 0..self.count {
+            if all_set(&out) {
+                return 0;
+            }
             let (n, offset) = (self.normals[k], self.offsets[k]);
             let [x, y, z] = extreme_corners(boxes, n, false);
             for l in 0..8 {
@@ -119,6 +127,9 @@ impl Shaft {
     /// Bit per lane: the box lies inside the shaft, away from its border. Unused lanes are not.
     #[inline(always)]
     pub(super) fn contains_boxes(&self, boxes: &BoxOctet, lanes: u32) -> u32 {
+        if !self.has_planes {
+            return 0;
+        }
         let mut out = [0_u32; 8];
         for axis in 0..3 {
             let (low, high) = (self.inner_low[axis], self.inner_high[axis]);
@@ -141,47 +152,32 @@ impl Shaft {
         clear_lanes(&out) & lanes
     }
 
-    /// Two masks: the triangle may meet the shaft (no plane of the shaft has it outside), and a
-    /// corner of the triangle lies inside, away from the border.
+    /// Bit per lane: the triangle may meet the shaft (no plane of the shaft has it outside).
     #[inline(always)]
-    pub(super) fn meets_triangles(&self, triangles: &TriangleOctet) -> (u32, u32) {
+    pub(super) fn meets_triangles(&self, triangles: &TriangleOctet) -> u32 {
         let mut out = [0_u32; 8];
-        let mut corner_out = [[0_u32; 8]; 3];
         let c = &triangles.corners;
         for axis in 0..3 {
             let (low, high) = (self.low[axis], self.high[axis]);
-            let (inner_low, inner_high) = (self.inner_low[axis], self.inner_high[axis]);
             for l in 0..8 {
                 let (p, q, r) = (c[0][axis][l], c[1][axis][l], c[2][axis][l]);
                 out[l] |= u32::from((p > high) & (q > high) & (r > high))
                     | u32::from((p < low) & (q < low) & (r < low));
-                corner_out[0][l] |= u32::from((p > inner_high) | (p < inner_low));
-                corner_out[1][l] |= u32::from((q > inner_high) | (q < inner_low));
-                corner_out[2][l] |= u32::from((r > inner_high) | (r < inner_low));
             }
         }
         for k in 0..self.count {
-            let n = self.normals[k];
-            let (offset, inner) = (self.offsets[k], self.inner_offsets[k]);
-            let mut height = [[0.0_f32; 8]; 3];
-            for (height, c) in height.iter_mut().zip(c) {
-                for l in 0..8 {
-                    height[l] = n.x * c[0][l] + n.y * c[1][l] + n.z * c[2][l];
-                }
+            if all_set(&out) {
+                return 0;
             }
+            let (n, offset) = (self.normals[k], self.offsets[k]);
             for l in 0..8 {
-                out[l] |= u32::from(
-                    (height[0][l] > offset) & (height[1][l] > offset) & (height[2][l] > offset),
-                );
-                corner_out[0][l] |= u32::from(height[0][l] > inner);
-                corner_out[1][l] |= u32::from(height[1][l] > inner);
-                corner_out[2][l] |= u32::from(height[2][l] > inner);
+                let p = n.x * c[0][0][l] + n.y * c[0][1][l] + n.z * c[0][2][l];
+                let q = n.x * c[1][0][l] + n.y * c[1][1][l] + n.z * c[1][2][l];
+                let r = n.x * c[2][0][l] + n.y * c[2][1][l] + n.z * c[2][2][l];
+                out[l] |= u32::from((p > offset) & (q > offset) & (r > offset));
             }
         }
-        let meets = clear_lanes(&out);
-        let corner_inside =
-            clear_lanes(&corner_out[0]) | clear_lanes(&corner_out[1]) | clear_lanes(&corner_out[2]);
-        (meets, corner_inside & meets)
+        clear_lanes(&out)
     }
 }
 
@@ -212,13 +208,14 @@ fn support(normal: Vec3, bounds: &ElementBounds) -> f32 {
 /// The coordinates of each box's corner that lies least (or most) far along `normal`.
 #[inline(always)]
 fn extreme_corners(boxes: &BoxOctet, normal: Vec3, farthest: bool) -> [&[f32; 8]; 3] {
-    std::array::from_fn(|axis| {
-        if (normal[axis] > 0.0) == farthest {
+    let pick = |axis: usize, component: f32| {
+        if (component > 0.0) == farthest {
             &boxes.max[axis]
         } else {
             &boxes.min[axis]
         }
-    })
+    };
+    [pick(0, normal.x), pick(1, normal.y), pick(2, normal.z)]
 }
 
 #[inline(always)]

@@ -6,27 +6,34 @@
 //! go on where they stop: the planes through an edge of one element and a corner of the other that
 //! have both elements on one side, and the elements' own planes.
 
+// Lanes of several arrays run in step: an index says so, and is what vectorises.
+#![allow(clippy::needless_range_loop)]
+
 use super::bounds::{BoundsShape, ElementBounds};
 use super::shaft::Shaft;
 use super::tolerance::Tolerance;
 use glam::Vec3;
 
-/// The shaft between two elements.
+/// Gives the box of the union of two elements the planes that make it their shaft.
 #[inline(always)]
-pub(super) fn shaft_between(a: &ElementBounds, b: &ElementBounds, tolerance: &Tolerance) -> Shaft {
-    let mut shaft = Shaft::new(a, b, tolerance);
+pub(super) fn push_planes(
+    shaft: &mut Shaft,
+    a: &ElementBounds,
+    b: &ElementBounds,
+    tolerance: &Tolerance,
+) {
     if a.shape() == BoundsShape::Box || b.shape() == BoundsShape::Box {
-        push_projected_hulls(&mut shaft, a, b);
+        push_projected_hulls(shaft, a, b);
     }
     // Far below the weld distance, far above rounding: which corner supports a plane.
     let slack = 0.25 * tolerance.weld;
     for (own, other) in [(a, b), (b, a)] {
         if own.shape() != BoundsShape::Box {
-            push_supported_by_edges(&mut shaft, own, other, slack);
-            push_caps(&mut shaft, own, other, slack);
+            push_supported_by_edges(shaft, own, other, slack);
+            push_caps(shaft, own, other, slack);
         }
     }
-    shaft
+    shaft.complete();
 }
 
 /// In the projection along the third axis, the corners of the two rectangles in one quadrant are
@@ -85,8 +92,13 @@ fn push_supported_by_edges(
             limit[l] = slack * (nx[l] * nx[l] + ny[l] * ny[l] + nz[l] * nz[l]).sqrt();
         }
         let (mut least, mut greatest) = ([0.0_f32; 8], [0.0_f32; 8]);
-        for bounds in [own, other] {
+        // The edge's own ends lie in all eight planes.
+        let next = own.next_corner(i);
+        for (bounds, skipped) in [(own, [i, next]), (other, [8, 8])] {
             for k in 0..bounds.corner_count() {
+                if k == skipped[0] || k == skipped[1] {
+                    continue;
+                }
                 let d = bounds.corner(k) - start;
                 for l in 0..8 {
                     let height = nx[l] * d.x + ny[l] * d.y + nz[l] * d.z;
@@ -100,8 +112,17 @@ fn push_supported_by_edges(
             }
         }
         // Where everything lies in the plane it is a cap, not a side.
-        let side = (0..8).find(|&l| (greatest[l] <= limit[l]) != (least[l] >= -limit[l]));
-        if let Some(l) = side {
+        let mut bits = [0_u32; 8];
+        for l in 0..8 {
+            let side = (greatest[l] <= limit[l]) != (least[l] >= -limit[l]);
+            bits[l] = if side { 1 << l } else { 0 };
+        }
+        let mut sides = 0;
+        for bit in bits {
+            sides |= bit;
+        }
+        if sides != 0 {
+            let l = (sides.trailing_zeros() & 7) as usize;
             let normal = Vec3::new(nx[l], ny[l], nz[l]);
             let outward = if greatest[l] <= limit[l] {
                 normal
