@@ -38,6 +38,7 @@ pub(crate) fn scene(
         normalisation,
         source_faces: triangles.iter().map(|t| t.1 + 1).max().unwrap_or(0),
         dropped_faces: Vec::new(),
+        contacts: crate::scene::Contacts::default(),
         warnings: Vec::new(),
     }
 }

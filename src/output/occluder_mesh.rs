@@ -140,6 +140,7 @@ mod tests {
             },
             source_faces: 0,
             dropped_faces: Vec::new(),
+            contacts: crate::scene::Contacts::default(),
             warnings: Vec::new(),
         }
     }

@@ -3,6 +3,8 @@
 
 use super::assets::Assets;
 use super::config::LoadConfig;
+use super::contact_search::find_contacts;
+use super::contacts::Contacts;
 use super::error::{Defect, DefectLog, LoadError, MAX_ELEMENTS, Reason};
 use super::material::{Materials, check_materials, describe, resolve_materials};
 use super::model::{Normalisation, Polygon, Scene, SceneWarning};
@@ -10,7 +12,7 @@ use super::mtl_scan::RawMaterial;
 use super::normalise::normalisation_of;
 use super::obj_parse::{RawMesh, parse_obj};
 use super::obj_scan::{ObjScan, scan_obj};
-use super::overlap::find_overlaps;
+use super::overlap::{Overlaps, find_overlaps};
 use super::polygons::{Pieces, Tally, cut_faces};
 use super::surface::{Canvas, assign_surfaces};
 use glam::{DVec3, Vec3};
@@ -150,14 +152,16 @@ fn load(
         source_faces: mesh.face_count() as u32,
         source_positions: mesh.positions,
         dropped_faces: pieces.dropped_faces,
+        contacts: Contacts::default(),
         warnings,
     };
-    warn_of_overlaps(&mut scene);
+    let overlaps = find_overlaps(&scene);
+    scene.contacts = find_contacts(&scene, &overlaps);
+    warn_of_overlaps(&mut scene, &overlaps);
     Ok(scene)
 }
 
-fn warn_of_overlaps(scene: &mut Scene) {
-    let overlaps = find_overlaps(scene);
+fn warn_of_overlaps(scene: &mut Scene, overlaps: &Overlaps) {
     let mut warn = |count: usize, what: String| {
         if count > 0 {
             let text = format!("{}: {count} polygons {what}", scene.name);
@@ -172,7 +176,7 @@ fn warn_of_overlaps(scene: &mut Scene) {
     warn(
         overlaps.partly_covered_fronts,
         format!(
-            "lie partly on others in one plane, facing the same way; power will not add up on {:.2e} of the area",
+            "lie partly on others in one plane, facing the same way; they receive no light of their own on {:.2e} of the area",
             overlaps.partly_covered_share
         ),
     );

@@ -2,9 +2,12 @@
 
 mod assets;
 mod config;
+mod contact_search;
+mod contacts;
 mod convex;
 mod degenerate;
 mod error;
+mod flat;
 pub mod generate;
 mod load;
 mod material;
@@ -25,6 +28,7 @@ mod texture_map;
 mod triangulate;
 
 pub use config::{CLAMPED_REFLECTANCE, LoadConfig};
+pub use contacts::Contacts;
 pub use error::{Defect, LoadError, MAX_ELEMENTS, Reason};
 pub use load::{load_file, load_text};
 pub use model::{Facet, Normalisation, Polygon, Scene, SceneWarning, Side, Surface};

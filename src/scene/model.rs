@@ -4,6 +4,7 @@
 //! bounding box fits the unit cube around the origin (`[-1/2, 1/2]^3`). [`Normalisation`] maps
 //! back to the file's units, and `source_positions` keeps the vertices as they were read.
 
+use super::contacts::Contacts;
 use crate::math::{Aabb, PolygonId};
 use glam::{DVec3, Vec3};
 
@@ -98,6 +99,8 @@ pub struct Scene {
     pub source_faces: u32,
     /// Faces dropped at loading (zero area, duplicates), ascending.
     pub dropped_faces: Vec<u32>,
+    /// Which parts of sides solids hide by standing on them.
+    pub contacts: Contacts,
     /// What was odd about the input.
     pub warnings: Vec<SceneWarning>,
 }

@@ -5,20 +5,13 @@
 //! before a back, then the lower index.
 
 use super::convex::{area, perimeter, split};
+use super::flat::{Flat, are_apart};
 use super::model::{Facet, Scene, Side};
-use super::polygon_tree::PolygonTree;
-use super::side_graph::side_index;
+use super::polygon_tree::{MOST_VISITS, PolygonTree};
+use super::side_graph::{SideIndex, side_index};
 use crate::math::{Aabb, PolygonId};
-use glam::{DVec2, DVec3, Vec3};
+use glam::DVec2;
 use rayon::prelude::*;
-
-/// Polygons with a smaller altitude are left alone: in f32 their facing is noise, and their area does
-/// not matter to a scene of size 1.
-const LEAST_ALTITUDE: f64 = 1e-5;
-
-/// Nodes that the search around one polygon may visit. Meshes need about a hundred; only crowds
-/// in which every box meets every other need more, and must not cost quadratic time.
-const MOST_VISITS: usize = 4096;
 
 /// Pieces into which the uncovered rest of a polygon may fall before it counts as partly covered.
 const MOST_PIECES: usize = 256;
@@ -30,12 +23,14 @@ pub struct Overlaps {
     covered: Vec<bool>,
     /// Polygons whose front is wholly covered.
     pub covered_fronts: usize,
-    /// Polygons whose front is covered in part: their power is counted twice there.
+    /// Polygons whose front is covered in part.
     pub partly_covered_fronts: usize,
     /// Area of those parts over the area of all polygons.
     pub partly_covered_share: f64,
     /// Polygons in such crowds that the search was given up.
     pub unchecked: usize,
+    /// Sides covered in part, each with a polygon that covers some of it, sorted.
+    pub(super) partly: Vec<(SideIndex, PolygonId)>,
 }
 
 impl Overlaps {
@@ -46,10 +41,12 @@ impl Overlaps {
 }
 
 /// What is found about one polygon.
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 struct Cover {
     front: Covered,
     back: Covered,
+    /// Sides, and the polygons that own parts of them.
+    owners: Vec<(Side, PolygonId)>,
     gave_up: bool,
 }
 
@@ -75,7 +72,17 @@ pub fn find_overlaps(scene: &Scene) -> Overlaps {
         ..Overlaps::default()
     };
     let mut double = 0.0;
-    for cover in covers {
+    for (i, cover) in covers.into_iter().enumerate() {
+        let id = PolygonId::new(i);
+        for (side, owner) in cover.owners {
+            let whole = match side {
+                Side::Front => cover.front,
+                Side::Back => cover.back,
+            };
+            if whole != Covered::Wholly {
+                overlaps.partly.push((side_index(id, side), owner));
+            }
+        }
         overlaps.covered.push(cover.front == Covered::Wholly);
         overlaps.covered.push(cover.back == Covered::Wholly);
         overlaps.unchecked += usize::from(cover.gave_up);
@@ -88,6 +95,7 @@ pub fn find_overlaps(scene: &Scene) -> Overlaps {
             }
         }
     }
+    overlaps.partly.sort_unstable();
     let whole: f64 = (0..scene.polygons.len())
         .map(|i| scene.polygon_area(PolygonId::new(i)))
         .sum();
@@ -120,20 +128,16 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
         }
         let first =
             |side, other_side| precedence(scene, other, other_side) < precedence(scene, id, side);
-        if lying.same_way {
-            if first(Side::Front, Side::Front) {
-                front.subtract(&lying.corners);
-            }
-            if first(Side::Back, Side::Back) {
-                back.subtract(&lying.corners);
-            }
+        let [on_front, on_back] = if lying.same_way {
+            [Side::Front, Side::Back]
         } else {
-            if first(Side::Back, Side::Front) {
-                back.subtract(&lying.corners);
-            }
-            if first(Side::Front, Side::Back) {
-                front.subtract(&lying.corners);
-            }
+            [Side::Back, Side::Front]
+        };
+        if first(Side::Front, on_front) && front.subtract(&lying.corners) {
+            cover.owners.push((Side::Front, other));
+        }
+        if first(Side::Back, on_back) && back.subtract(&lying.corners) {
+            cover.owners.push((Side::Back, other));
         }
     }
     cover.front = front.judge();
@@ -145,110 +149,6 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
 fn precedence(scene: &Scene, polygon: PolygonId, side: Side) -> (bool, Side, PolygonId) {
     let dark = side == Side::Back || scene.surface(polygon).emission == [0.0; 3];
     (dark, side, polygon)
-}
-
-/// A polygon laid flat into its own plane.
-struct Flat {
-    origin: DVec3,
-    normal: DVec3,
-    u: DVec3,
-    v: DVec3,
-    corners: [DVec2; 3],
-}
-
-/// Another polygon in that plane.
-struct Lying {
-    /// Counter-clockwise seen from the front of the first.
-    corners: [DVec2; 3],
-    same_way: bool,
-}
-
-impl Flat {
-    /// `None` for polygons whose normal is noise.
-    fn new(scene: &Scene, id: PolygonId) -> Option<Self> {
-        let [a, b, c] = scene.corners(id).map(Vec3::as_dvec3);
-        let doubled = (b - a).cross(c - a);
-        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        if doubled.length() < LEAST_ALTITUDE * longest {
-            return None;
-        }
-        let normal = doubled.normalize();
-        let (u, v) = normal.any_orthonormal_pair();
-        let mut flat = Self {
-            origin: a,
-            normal,
-            u,
-            v,
-            corners: [DVec2::ZERO; 3],
-        };
-        flat.corners = [a, b, c].map(|p| flat.project(p));
-        // Whichever way the pair turns.
-        if flat.turn(&flat.corners) < 0.0 {
-            std::mem::swap(&mut flat.u, &mut flat.v);
-            flat.corners = [a, b, c].map(|p| flat.project(p));
-        }
-        Some(flat)
-    }
-
-    fn project(&self, p: DVec3) -> DVec2 {
-        DVec2::new(self.u.dot(p - self.origin), self.v.dot(p - self.origin))
-    }
-
-    fn turn(&self, [a, b, c]: &[DVec2; 3]) -> f64 {
-        (b - a).perp_dot(c - a)
-    }
-
-    fn height(&self, p: DVec3) -> f64 {
-        self.normal.dot(p - self.origin).abs()
-    }
-
-    /// The other polygon, if it lies within `tau` of this one's plane, or this one of its: a small
-    /// polygon's plane says little about where a large one lies.
-    fn coplanar(&self, scene: &Scene, other: PolygonId, tau: f32) -> Option<Lying> {
-        let tau = f64::from(tau);
-        let corners = scene.corners(other).map(Vec3::as_dvec3);
-        let [a, b, c] = corners;
-        let larger = (b - a).cross(c - a).length_squared()
-            > (self.corners[1] - self.corners[0])
-                .perp_dot(self.corners[2] - self.corners[0])
-                .powi(2);
-        let within = corners.iter().all(|&p| self.height(p) <= tau)
-            || larger && {
-                let its = Self::new(scene, other)?;
-                its.normal.dot(self.normal).abs() > 0.999
-                    && self
-                        .corners
-                        .iter()
-                        .all(|p| its.height(self.origin + self.u * p.x + self.v * p.y) <= tau)
-            };
-        if !within {
-            return None;
-        }
-        let [a, b, c] = corners.map(|p| self.project(p));
-        let turn = self.turn(&[a, b, c]);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        if turn.abs() < LEAST_ALTITUDE * longest {
-            return None;
-        }
-        let same_way = turn > 0.0;
-        Some(Lying {
-            corners: if same_way { [a, b, c] } else { [a, c, b] },
-            same_way,
-        })
-    }
-}
-
-/// Whether an edge of one of two triangles has all of the other beyond it, but for a strip of `tau`: so
-/// it is with the neighbours in a mesh, which need no clipping.
-fn are_apart(a: &[DVec2; 3], b: &[DVec2; 3], tau: f32) -> bool {
-    let parts = |a: &[DVec2; 3], b: &[DVec2; 3]| {
-        (0..3).any(|i| {
-            let (from, along) = (a[i], a[(i + 1) % 3] - a[i]);
-            let strip = f64::from(tau) * along.length();
-            b.iter().all(|&p| along.perp_dot(p - from) < strip)
-        })
-    };
-    parts(a, b) || parts(b, a)
 }
 
 /// What is left of a side after others have taken their parts.
@@ -270,14 +170,15 @@ impl Rest {
         }
     }
 
-    fn subtract(&mut self, cutter: &[DVec2; 3]) {
+    /// Takes `cutter` away; false where it takes nothing more.
+    fn subtract(&mut self, cutter: &[DVec2; 3]) -> bool {
         if self.too_many
             || !self
                 .pieces
                 .iter()
                 .any(|p| self.matters(&split(p, cutter).0))
         {
-            return;
+            return false;
         }
         let mut left = Vec::new();
         for piece in &self.pieces {
@@ -286,6 +187,7 @@ impl Rest {
         }
         self.pieces = left;
         self.too_many = self.pieces.len() > MOST_PIECES;
+        true
     }
 
     /// Whether a part is more than a strip along an edge.

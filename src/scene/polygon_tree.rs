@@ -8,6 +8,10 @@ use rayon::prelude::*;
 /// Polygons a leaf: a box test costs about as much as rejecting four of them.
 const LEAF: usize = 4;
 
+/// Nodes that a search around one polygon may visit. Meshes need about a hundred; only crowds in
+/// which every box meets every other need more, and must not cost quadratic time.
+pub(super) const MOST_VISITS: usize = 4096;
+
 struct Node {
     bounds: Aabb,
     /// Where to go on if the box is missed: the node after this one's descendants.

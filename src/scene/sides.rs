@@ -195,7 +195,9 @@ impl<'a> Flood<'a> {
         let inside = (0..3)
             .map(|i| weights[i] * doubled_area / edges[i])
             .fold(f32::INFINITY, f32::min);
-        if inside * cosine > (1.0 + STEP_ASIDE) * self.tau {
+        if inside * cosine > (1.0 + STEP_ASIDE) * self.tau
+            && !self.scene.contacts.is_hidden(facet, origin)
+        {
             probes.sides.push(side);
             probes
                 .rays
@@ -217,7 +219,11 @@ impl<'a> Flood<'a> {
         for (i, hit) in hits.iter().enumerate() {
             let Some(hit) = hit else { continue };
             let (from, to) = (probes.sides[i], self.side_hit(&probes.rays[i], hit));
-            if roots[from as usize] != roots[to as usize] {
+            // Under a solid's foot the side is met from the solid's inside.
+            let point = probes.rays[i].origin + probes.rays[i].direction * hit.t;
+            if roots[from as usize] != roots[to as usize]
+                && !self.scene.contacts.is_hidden(facet_at(to), point)
+            {
                 links.push((from, to));
                 confirming.extend(probes.asides[i].map(|step| Ray {
                     origin: probes.rays[i].origin + step,

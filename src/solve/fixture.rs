@@ -32,6 +32,7 @@ pub fn scene(surfaces: Vec<Surface>) -> Scene {
         },
         source_faces: 0,
         dropped_faces: Vec::new(),
+        contacts: crate::scene::Contacts::default(),
         warnings: Vec::new(),
     }
 }

@@ -17,6 +17,9 @@ const ESCAPE_RAYS: usize = 1 << 18;
 /// Rays a task casts at once.
 const BATCH: usize = 1 << 12;
 
+/// Places tried on a patch that a solid hides in part, since what it reflects comes from its open part.
+const TRIES: usize = 16;
+
 /// A patch and the power that it has shot.
 #[derive(Clone, Copy, Debug)]
 pub struct RadiatingPatch {
@@ -76,31 +79,33 @@ pub fn escape(
     let counts: Vec<(usize, usize)> = (0..ESCAPE_RAYS / BATCH)
         .into_par_iter()
         .map(|batch| {
+            let mut swallowed = 0;
             let rays: Vec<Ray> = (batch * BATCH..(batch + 1) * BATCH)
-                .map(|i| {
-                    let [u, v, s, t] = sequence.point(i as u32);
+                .filter_map(|i| {
                     // Strata of equal power: one ray each.
                     let target = (i as f64 + 0.5) / ESCAPE_RAYS as f64 * total;
                     let patch = patches[before.partition_point(|&x| x <= target) - 1];
                     let facet = hierarchy.facets[patch.facet.index()];
-                    let [a, b, c] = patch.path.corners(scene.facet_corners(facet));
-                    let (u, v) = if u + v > 1.0 {
-                        (1.0 - u, 1.0 - v)
+                    let corners = patch.path.corners(scene.facet_corners(facet));
+                    let tries = if scene.emission(facet) == [0.0; 3] {
+                        TRIES
                     } else {
-                        (u, v)
+                        1
                     };
-                    cosine_ray(
-                        a + (b - a) * u + (c - a) * v,
-                        normals[patch.facet.index()],
-                        s,
-                        t,
-                        tau,
-                    )
+                    let ray = (0..tries).find_map(|k| {
+                        let [u, v, s, t] = sequence.point((i + k * ESCAPE_RAYS) as u32);
+                        let origin = point_in(corners, u, v);
+                        let normal = normals[patch.facet.index()];
+                        (!scene.contacts.is_hidden(facet, origin))
+                            .then(|| cosine_ray(origin, normal, s, t, tau))
+                    });
+                    swallowed += usize::from(ray.is_none());
+                    ray
                 })
                 .collect();
             let mut hits = Vec::with_capacity(rays.len());
             embree.closest_hits(&rays, &mut hits);
-            let mut count = (0, 0);
+            let mut count = (0, swallowed);
             for (ray, hit) in rays.iter().zip(&hits) {
                 match hit {
                     None => count.0 += 1,
@@ -124,6 +129,16 @@ pub fn escape(
         escaped_stderr: total * (p * (1.0 - p) / ESCAPE_RAYS as f64).sqrt(),
         swallowed: total * share(swallowed),
     }
+}
+
+/// Uniform point of a triangle from a point of the unit square, folded along its diagonal.
+fn point_in([a, b, c]: [Vec3; 3], u: f32, v: f32) -> Vec3 {
+    let (u, v) = if u + v > 1.0 {
+        (1.0 - u, 1.0 - v)
+    } else {
+        (u, v)
+    };
+    a + (b - a) * u + (c - a) * v
 }
 
 /// A ray in a cosine-distributed direction about `normal`, starting tau below its horizon's depth.

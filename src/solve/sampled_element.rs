@@ -8,7 +8,7 @@ use super::element::{Element, Shape};
 use super::radiosity::Shooter;
 use super::solution::split_triangle;
 use crate::cluster::Hierarchy;
-use crate::scene::Scene;
+use crate::scene::{Facet, Scene};
 use crate::visibility::{PointOctet, Surface};
 use glam::Vec3;
 
@@ -30,13 +30,24 @@ impl Surface for ReceiverSurface<'_> {
     fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
         let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
-            return PointOctet::of_triangle(corners, normal, u, v);
+            let mut points = PointOctet::of_triangle(corners, normal, u, v);
+            let facet = self.hierarchy.facets[self.element.first_facet as usize];
+            if self.scene.contacts.touches(facet) {
+                for l in 0..8 {
+                    let hidden = self.scene.contacts.is_hidden(facet, points.position(l));
+                    points.swallowed |= u8::from(hidden) << l;
+                }
+            }
+            return points;
         }
         let mut points = PointOctet::of_triangle([self.element.centroid; 3], normal, u, v);
         for l in 0..8 {
             let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
             let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
             points.set(l, corners, self.normals[facet], [rest, v[l]], 1.0);
+            let facet = self.hierarchy.facets[facet];
+            let hidden = self.scene.contacts.is_hidden(facet, points.position(l));
+            points.swallowed |= u8::from(hidden) << l;
         }
         points
     }
@@ -74,12 +85,15 @@ impl<const C: usize> Surface for SourceSurface<'_, C> {
         if let Shape::Triangle(corners) = self.element.shape {
             let mut points = PointOctet::of_triangle(corners, normal, u, v);
             let shooter = &self.shooters[self.owner as usize];
-            if shooter.children[self.slot as usize] == 0 {
-                return points;
+            if shooter.children[self.slot as usize] != 0 {
+                for l in 0..8 {
+                    let at = (self.owner, self.slot);
+                    self.set_patch_point(&mut points, l, at, corners, normal, [u[l], v[l]]);
+                }
             }
-            for l in 0..8 {
-                let at = (self.owner, self.slot);
-                self.set_patch_point(&mut points, l, at, corners, normal, [u[l], v[l]]);
+            let facet = self.hierarchy.facets[self.element.first_facet as usize];
+            if self.scene.contacts.touches(facet) {
+                (0..8).for_each(|l| self.hide(&mut points, l, facet));
             }
             return points;
         }
@@ -91,12 +105,26 @@ impl<const C: usize> Surface for SourceSurface<'_, C> {
             let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
             let normal = self.normals[facet];
             self.set_patch_point(&mut points, l, (owner, slot), corners, normal, [rest, v[l]]);
+            self.hide(&mut points, l, self.hierarchy.facets[facet]);
         }
         points
     }
 }
 
 impl<const C: usize> SourceSurface<'_, C> {
+    /// Marks point `l` of `facet` where it is hidden. What a surface receives is what its open part receives, so
+    /// that is where its light comes from; what it emits it emits everywhere.
+    fn hide(&self, points: &mut PointOctet, l: usize, facet: Facet) {
+        if !self.scene.contacts.is_hidden(facet, points.position(l)) {
+            return;
+        }
+        if self.scene.emission(facet) == [0.0; 3] {
+            points.absent |= 1 << l;
+        } else {
+            points.swallowed |= 1 << l;
+        }
+    }
+
     /// Puts a point of a frozen patch into lane `l`: down its split with `u`, whose four children have equal
     /// areas.
     fn set_patch_point(

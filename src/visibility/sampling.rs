@@ -97,6 +97,10 @@ pub struct PointOctet {
     pub normal: [[f32; 8]; 3],
     /// Light that they send, over their element's mean; 1 for receivers.
     pub light: [f32; 8],
+    /// Bit per point where something touches the surface and swallows light that the element's mean counts on.
+    pub swallowed: u8,
+    /// Bit per point where something touches the surface and the element's mean light comes from elsewhere on it.
+    pub absent: u8,
 }
 
 impl PointOctet {
@@ -119,7 +123,14 @@ impl PointOctet {
             position,
             normal: normal.to_array().map(|n| [n; 8]),
             light: [1.0; 8],
+            swallowed: 0,
+            absent: 0,
         }
+    }
+
+    /// The position of point `l`.
+    pub fn position(&self, l: usize) -> Vec3 {
+        Vec3::from_array(self.position.map(|axis| axis[l]))
     }
 
     /// Replaces lane `l` by a point of a triangle, as [`Self::of_triangle`] does.
@@ -191,6 +202,7 @@ pub fn sample_visibility(
     let mut result = SampledVisibility::default();
     let mut total_weight = 0.0f32;
     let mut clear_weight = 0.0f32;
+    let mut swallowed = false;
     for attempt in 0..RETRIES {
         let mut index = attempt * rays;
         let end = index + rays;
@@ -198,10 +210,12 @@ pub fn sample_visibility(
             let lanes = (end - index).min(8);
             let [u, v, s, t] = sequence.points(index);
             let (from, to) = (source.points(&u, &v), receiver.points(&s, &t));
-            let trimmed = trim(&from, &to, tau, lanes);
+            let mut trimmed = trim(&from, &to, tau, lanes);
+            trimmed.forget(from.absent | to.absent);
             for weight in trimmed.weight {
                 total_weight += weight;
             }
+            swallowed |= trimmed.forget(from.swallowed | to.swallowed);
             let octet = SampleOctet {
                 segments: SegmentOctet {
                     from: from.position,
@@ -228,8 +242,11 @@ pub fn sample_visibility(
         }
     }
     result.all_blocked = clear_weight == 0.0;
-    result.all_clear = total_weight > 0.0 && result.rays_blocked == 0;
-    result.visibility = if result.all_clear {
+    result.all_clear = total_weight > 0.0 && result.rays_blocked == 0 && !swallowed;
+    result.visibility = if clear_weight == 0.0 {
+        // Clear or not: all that can be seen of the source is dark.
+        0.0
+    } else if result.all_clear {
         1.0
     } else if total_weight > 0.0 {
         clear_weight / total_weight
@@ -247,6 +264,23 @@ struct Trimmed {
     weight: [f32; 8],
     /// Lanes with something left to test.
     active: u8,
+}
+
+impl Trimmed {
+    /// Takes the light of `lanes` away; true where they carried some.
+    fn forget(&mut self, lanes: u8) -> bool {
+        let mut carried = false;
+        if lanes != 0 {
+            for l in 0..8 {
+                if lanes & (1 << l) != 0 {
+                    carried |= self.weight[l] > 0.0;
+                    self.weight[l] = 0.0;
+                }
+            }
+            self.active &= !lanes;
+        }
+        carried
+    }
 }
 
 /// The rays from `from` (parameter 0) to `to` (parameter 1) in the first `lanes` lanes.

@@ -26,7 +26,6 @@ fn sealed_rooms_are_black() {
 }
 
 #[test]
-#[ignore = "fails: no patch is black, the brightest 5.3e-2 W/m2"]
 fn a_room_behind_a_slab_is_black() {
     check_sealed("sealed-slab");
 }

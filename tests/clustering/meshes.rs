@@ -56,6 +56,7 @@ impl Mesh {
             },
             source_faces: self.triangles.len() as u32,
             dropped_faces: Vec::new(),
+            contacts: certilux::scene::Contacts::default(),
             warnings: Vec::new(),
         }
     }

@@ -94,6 +94,7 @@ pub fn scene_of(triangles: &[Triangle]) -> Scene {
             scale: 1.0,
         },
         dropped_faces: Vec::new(),
+        contacts: crate::scene::Contacts::default(),
         warnings: Vec::new(),
     }
 }
