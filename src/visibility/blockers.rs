@@ -165,11 +165,22 @@ impl WithSimd for BlockedKernel<'_> {
             let n = blocker.normal;
             let mut hp = [0.0_f64; 8];
             let mut hq = [0.0_f64; 8];
-            let mut least = [f64::INFINITY; 8];
-            let mut greatest = [f64::NEG_INFINITY; 8];
             for l in 0..8 {
                 hp[l] = n.x * p[0][l] + n.y * p[1][l] + n.z * p[2][l] - blocker.offset;
                 hq[l] = n.x * q[0][l] + n.y * q[1][l] + n.z * q[2][l] - blocker.offset;
+            }
+            // Most polygons of a list have all segments on one side, or are crossed one way only.
+            let (mut up, mut down) = ([0_u64; 8], [0_u64; 8]);
+            let mut crossed = 0;
+            for l in 0..8 {
+                up[l] = u64::from((hp[l] < -depth) & (hq[l] > depth));
+                down[l] = u64::from((hp[l] > depth) & (hq[l] < -depth));
+            }
+            for l in 0..8 {
+                crossed |= up[l] | down[l];
+            }
+            if crossed == 0 {
+                continue;
             }
             for (e, m) in &blocker.edges {
                 for l in 0..8 {
@@ -179,14 +190,17 @@ impl WithSimd for BlockedKernel<'_> {
                         + m.x * along[0][l]
                         + m.y * along[1][l]
                         + m.z * along[2][l];
-                    least[l] = if g < least[l] { g } else { least[l] };
-                    greatest[l] = if g > greatest[l] { g } else { greatest[l] };
+                    up[l] &= u64::from(g >= 0.0);
+                    down[l] &= u64::from(g <= 0.0);
                 }
             }
+            let mut open = 0;
             for l in 0..8 {
-                let up = (hp[l] < -depth) & (hq[l] > depth) & (least[l] >= 0.0);
-                let down = (hp[l] > depth) & (hq[l] < -depth) & (greatest[l] <= 0.0);
-                blocked[l] |= u64::from(up | down);
+                blocked[l] |= up[l] | down[l];
+                open |= blocked[l] ^ 1;
+            }
+            if open == 0 {
+                break;
             }
         }
         let mut mask = 0;

@@ -36,6 +36,7 @@ pub struct ElementBounds {
 
 impl ElementBounds {
     /// An axis-aligned box (not empty), which may be flat.
+    #[inline]
     pub fn from_box(aabb: Aabb) -> Self {
         debug_assert!(!aabb.is_empty(), "an element has points");
         Self::with_corners(&aabb.corners(), aabb, BoundsShape::Box)
@@ -45,6 +46,7 @@ impl ElementBounds {
     ///
     /// # Panics
     /// If there are no corners or more than 8.
+    #[inline]
     pub fn from_polygon(corners: &[Vec3]) -> Self {
         let aabb = Aabb::from_points(corners.iter().copied());
         Self::with_corners(corners, aabb, BoundsShape::Polygon)
@@ -65,17 +67,22 @@ impl ElementBounds {
         Self::with_corners(&corners, aabb, BoundsShape::Slab)
     }
 
+    #[inline]
     fn with_corners(corners: &[Vec3], aabb: Aabb, shape: BoundsShape) -> Self {
         assert!(
             (1..=8).contains(&corners.len()),
             "an element's bound has 1 to 8 corners"
         );
         // Lanes beyond the count repeat the last corner: harmless to every minimum and maximum.
-        let lane = |i: usize| corners[i.min(corners.len() - 1)];
+        let last = corners[corners.len() - 1];
+        let (mut x, mut y, mut z) = ([last.x; 8], [last.y; 8], [last.z; 8]);
+        for (i, corner) in corners.iter().enumerate() {
+            (x[i], y[i], z[i]) = (corner.x, corner.y, corner.z);
+        }
         Self {
-            x: std::array::from_fn(|i| lane(i).x),
-            y: std::array::from_fn(|i| lane(i).y),
-            z: std::array::from_fn(|i| lane(i).z),
+            x,
+            y,
+            z,
             aabb,
             box_centre: aabb.centre(),
             half: aabb.half_extent(),

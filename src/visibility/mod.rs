@@ -1,7 +1,6 @@
 //! Guaranteed occluded, guaranteed visible, or unknown (paper, section 5).
 
 mod blockers;
-mod border_plane;
 mod bounds;
 mod crossing;
 pub mod exact;
@@ -13,6 +12,7 @@ mod sampling;
 mod scene_tree;
 mod shaft;
 mod shaft_planes;
+mod slab_planes;
 mod stored_polygon;
 mod survivors;
 mod tolerance;

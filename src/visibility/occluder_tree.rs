@@ -155,18 +155,13 @@ impl OccluderTree {
             }
         }
         let segment = ProbeSegment::new(a.centre(), b.centre());
-        // Two more segments that an occluder has to cross: most candidates fail one.
-        let (first, second) = (a.corner_count() - 1, b.corner_count() - 1);
-        let probes = [
-            ProbeSegment::new(a.corner(0), b.corner(second)),
-            ProbeSegment::new(a.corner(first), b.corner(0)),
-        ];
+        let inverse = segment.inverse();
         scratch.stack.clear();
         scratch.stack.push(0);
         while let Some(index) = scratch.stack.pop() {
             let node = &self.tree.nodes[index as usize];
             answer.nodes += 1;
-            let mut hits = segment.meets_boxes(node);
+            let mut hits = segment.meets_boxes(inverse, node);
             while hits != 0 {
                 let lane = hits.trailing_zeros() as usize;
                 hits &= hits - 1;
@@ -185,9 +180,15 @@ impl OccluderTree {
                     continue;
                 }
                 answer.centre_blocked = true;
-                let mut candidates = crossed
-                    & probes[0].crosses_rectangles(octet)
-                    & probes[1].crosses_rectangles(octet);
+                // Two more segments that an occluder has to cross: most candidates fail one.
+                let (first, second) = (a.corner_count() - 1, b.corner_count() - 1);
+                let probe = ProbeSegment::new(a.corner(0), b.corner(second));
+                let mut candidates = crossed & probe.crosses_rectangles(octet);
+                if candidates == 0 {
+                    continue;
+                }
+                let probe = ProbeSegment::new(a.corner(first), b.corner(0));
+                candidates &= probe.crosses_rectangles(octet);
                 while candidates != 0 {
                     let id = octet.ids[candidates.trailing_zeros() as usize];
                     candidates &= candidates - 1;
@@ -289,14 +290,21 @@ impl RectangleOctet {
 struct ProbeSegment {
     origin: Vec3,
     along: Vec3,
-    inverse: Vec3,
 }
 
 impl ProbeSegment {
     #[inline(always)]
     fn new(from: Vec3, to: Vec3) -> Self {
-        let along = to - from;
-        // Large but finite where a component vanishes, so that no product is NaN.
+        Self {
+            origin: from,
+            along: to - from,
+        }
+    }
+
+    /// One over the components of its direction; large but finite where one vanishes, so that no
+    /// product is NaN.
+    #[inline(always)]
+    fn inverse(&self) -> Vec3 {
         let inverse = |d: f32| {
             if d.abs() > 1.0e-12 {
                 1.0 / d
@@ -304,20 +312,20 @@ impl ProbeSegment {
                 1.0e12_f32.copysign(d)
             }
         };
-        Self {
-            origin: from,
-            along,
-            inverse: Vec3::new(inverse(along.x), inverse(along.y), inverse(along.z)),
-        }
+        Vec3::new(
+            inverse(self.along.x),
+            inverse(self.along.y),
+            inverse(self.along.z),
+        )
     }
 
     /// Bit per lane: the segment meets the box.
     #[inline(always)]
-    fn meets_boxes(&self, node: &WideNode) -> u32 {
+    fn meets_boxes(&self, inverse: Vec3, node: &WideNode) -> u32 {
         let mut enter = [0.0_f32; 8];
         let mut leave = [1.0_f32; 8];
         for axis in 0..3 {
-            let (o, inverse) = (self.origin[axis], self.inverse[axis]);
+            let (o, inverse) = (self.origin[axis], inverse[axis]);
             let (near, far) = if inverse >= 0.0 {
                 (&node.boxes.min[axis], &node.boxes.max[axis])
             } else {
@@ -342,17 +350,15 @@ impl ProbeSegment {
         let (o, d) = (self.origin, self.along);
         let mut bits = [0_u32; 8];
         for l in 0..8 {
-            let from_centre = [
-                o.x - octet.centre[0][l],
-                o.y - octet.centre[1][l],
-                o.z - octet.centre[2][l],
-            ];
-            let dot =
-                |v: &[[f32; 8]; 3], w: [f32; 3]| v[0][l] * w[0] + v[1][l] * w[1] + v[2][l] * w[2];
-            let along = [d.x, d.y, d.z];
-            let t = -dot(&octet.normal, from_centre) / dot(&octet.normal, along);
-            let u = dot(&octet.u, from_centre) + t * dot(&octet.u, along);
-            let v = dot(&octet.v, from_centre) + t * dot(&octet.v, along);
+            let x = o.x - octet.centre[0][l];
+            let y = o.y - octet.centre[1][l];
+            let z = o.z - octet.centre[2][l];
+            let (n, us, vs) = (&octet.normal, &octet.u, &octet.v);
+            let height = n[0][l] * x + n[1][l] * y + n[2][l] * z;
+            let t = -height / (n[0][l] * d.x + n[1][l] * d.y + n[2][l] * d.z);
+            let (x, y, z) = (x + t * d.x, y + t * d.y, z + t * d.z);
+            let u = us[0][l] * x + us[1][l] * y + us[2][l] * z;
+            let v = vs[0][l] * x + vs[1][l] * y + vs[2][l] * z;
             let inside = (t > 0.0) & (t < 1.0) & (u.abs() <= 1.0) & (v.abs() <= 1.0);
             bits[l] = if inside { 1 << l } else { 0 };
         }

@@ -15,11 +15,11 @@
 //! in the axes across the edge, with `x` inwards and `h` along the normal, `g` is `x_a h_b - h_a x_b`
 //! times the edge's length, and `x > 0` on both sides with `h_a < 0 < h_b` settles its sign. Growing
 //! the elements by `m` costs exactly `m` there, however slanted the segments, and in f64 rounding
-//! costs nothing; see [`BorderPlane`].
+//! costs nothing; see [`super::slab_planes`].
 
-use super::border_plane::{BorderPlane, Lie};
 use super::bounds::{BoundsShape, ElementBounds};
 use super::faults::Faults;
+use super::slab_planes::{BorderPlane, Lie, PlaneRange, SlabPlanes};
 use super::tolerance::Tolerance;
 use crate::occluder::SlabRectangle;
 use glam::Vec3;
@@ -30,7 +30,7 @@ const U: f32 = 1.0 / 16_777_216.0;
 /// A slab rectangle prepared for the test.
 #[derive(Clone, Copy, Debug)]
 pub struct OccluderFaces {
-    normal: Vec3,
+    planes: SlabPlanes,
     /// Every point of the slab has `normal . x` in `[low, high]`.
     low: f32,
     high: f32,
@@ -79,7 +79,7 @@ impl OccluderFaces {
         let borders: [BorderPlane; 4] =
             std::array::from_fn(|i| BorderPlane::new(edges[i].start, edges[i].direction, n));
         Self {
-            normal: n,
+            planes: SlabPlanes::new(n, &borders),
             borders,
             lean: edges.iter().fold(0.0, |lean, edge| {
                 let e = edge.direction.as_dvec3();
@@ -111,18 +111,27 @@ impl OccluderFaces {
         tolerance: &Tolerance,
         faults: Faults,
     ) -> bool {
-        let Some((sign, spare)) = self.side_of_second(a, b, tolerance) else {
+        let (over_a, over_b) = (self.planes.range(a), self.planes.range(b));
+        let Some((sign, spare)) = self.side_of_second(&over_a, &over_b, tolerance) else {
             return false;
         };
         // Heights across an edge are along the part of the normal at right angles to it; they
         // differ from those along the normal by at most `lean` times the distance to the edge, below
         // 2 sqrt(3) reach. What `side_of_second` proves has `tau + spare` to give for that.
         let upright = 3.5 * self.lean * tolerance.reach <= tolerance.tau + 0.999 * spare;
+        let boxes = a.shape() == BoundsShape::Box || b.shape() == BoundsShape::Box;
+        let grown = 1.001 * tolerance.nesting;
+        let lies = self
+            .planes
+            .lies(&over_a, &over_b, boxes, grown, tolerance.reach);
         let mut open = [true; 4];
-        for (open, border) in open.iter_mut().zip(&self.borders) {
-            match border.lie(a, b, tolerance) {
-                Lie::Inside if upright => *open = false,
+        for i in 0..4 {
+            match lies[i] {
                 Lie::Outside if !faults.beside_counts_as_inside() => return false,
+                Lie::Inside => open[i] = !upright,
+                Lie::Doubtful if upright => {
+                    open[i] = !self.borders[i].has_inside(a, b, f64::from(grown));
+                }
                 _ => {}
             }
         }
@@ -138,7 +147,10 @@ impl OccluderFaces {
         let (a, b, sign) = if swap { (b, a, -sign) } else { (a, b, sign) };
         let frame = PairFrame::new(self, a, b, tolerance);
         // A loop, not `all`: its closure would not be compiled for the wide instruction set.
-        for (edge, _) in self.edges.iter().zip(open).filter(|&(_, open)| open) {
+        for (edge, open) in self.edges.iter().zip(open) {
+            if !open {
+                continue;
+            }
             let threshold = frame.threshold(edge);
             let inside = passes_inside(edge, sign, a, b, threshold)
                 || (faults.beside_counts_as_inside()
@@ -160,43 +172,21 @@ impl OccluderFaces {
     #[inline(always)]
     fn side_of_second(
         &self,
-        a: &ElementBounds,
-        b: &ElementBounds,
+        a: &PlaneRange,
+        b: &PlaneRange,
         tolerance: &Tolerance,
     ) -> Option<(f32, f32)> {
         let margin = tolerance.tau + 1.001 * tolerance.nesting + 32.0 * U * tolerance.reach;
         let (low, high) = (self.low - margin, self.high + margin);
-        let (a_min, a_max) = height_range(self.normal, a);
+        let ((a_min, a_max), (b_min, b_max)) = (a.heights(), b.heights());
         if a_max < low {
-            let (b_min, _) = height_range(self.normal, b);
             (b_min > high).then_some((1.0, (low - a_max).min(b_min - high)))
         } else if a_min > high {
-            let (_, b_max) = height_range(self.normal, b);
             (b_max < low).then_some((-1.0, (low - b_max).min(a_min - high)))
         } else {
             None
         }
     }
-}
-
-/// Least and greatest `normal . x` over the corners, up to rounding.
-#[inline(always)]
-fn height_range(normal: Vec3, bounds: &ElementBounds) -> (f32, f32) {
-    if bounds.shape() == BoundsShape::Box {
-        let middle = normal.dot(bounds.box_centre);
-        let spread = normal.abs().dot(bounds.half);
-        return (middle - spread, middle + spread);
-    }
-    let mut h = [0.0_f32; 8];
-    for (l, h) in h.iter_mut().enumerate() {
-        *h = normal.x * bounds.x[l] + normal.y * bounds.y[l] + normal.z * bounds.z[l];
-    }
-    let (mut least, mut greatest) = (h[0], h[0]);
-    for h in h {
-        least = if h < least { h } else { least };
-        greatest = if h > greatest { h } else { greatest };
-    }
-    (least, greatest)
 }
 
 /// The magnitudes that bound the rounding of `g` for one pair and one rectangle.
