@@ -192,7 +192,7 @@ pub struct SolveArgs {
 }
 
 /// Levels between queries unless told.
-const DEFAULT_STRIDE: &str = "4";
+const DEFAULT_STRIDE: &str = "auto";
 
 impl SolveArgs {
     /// The validated configuration.

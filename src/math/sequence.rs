@@ -41,11 +41,11 @@ impl SampleSequence {
     #[inline]
     pub fn points(&self, index: u32) -> [[f32; 8]; 4] {
         let mut points = [[0.0; 8]; 4];
-        for d in 0..4 {
+        for (d, coordinate) in points.iter_mut().enumerate() {
             let first = self.shift[d].wrapping_add(Self::STEP[d].wrapping_mul(index));
-            for l in 0..8 {
+            for (l, value) in coordinate.iter_mut().enumerate() {
                 let bits = first.wrapping_add(Self::STEP[d].wrapping_mul(l as u32));
-                points[d][l] = (bits >> 8) as f32 * (1.0 / 16_777_216.0);
+                *value = (bits >> 8) as f32 * (1.0 / 16_777_216.0);
             }
         }
         points

@@ -156,7 +156,7 @@ impl Default for SolveConfig {
             min_area: 1.0e-6,
             seed: 1,
             normalise: Normalise::Auto,
-            stride: Stride::Every(Self::PAPER_STRIDE),
+            stride: Stride::Auto,
             keep_claims: 0,
             check_claims: false,
         }

@@ -212,7 +212,7 @@ fn angle(sine: f32, cosine: f32) -> f32 {
     series = series * x2 + 0.042_909_614;
     series = series * x2 - 0.075_289_64;
     series = series * x2 + 0.106_562_64;
-    series = series * x2 - 0.142_088_99;
+    series = series * x2 - 0.142_089;
     series = series * x2 + 0.199_935_51;
     series = series * x2 - 0.333_331_45;
     let first = x + x * (x2 * series);

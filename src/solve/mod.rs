@@ -20,6 +20,7 @@ mod pass;
 mod prepared;
 mod prover;
 mod push_pull;
+mod query_schedule;
 mod radiosity;
 mod sampled_element;
 mod solution;

@@ -52,6 +52,15 @@ const PARTIAL_SHARE: f64 = 0.25;
 /// A patch is not split once its radius is this many tau: its samples would start inside the margins.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
 
+/// About how many parts of an element exchange over a gap: those small enough to stand as one.
+fn parts_at(element: &Element, gap: f32) -> f32 {
+    if element.is_triangle() {
+        return 1.0;
+    }
+    let radii = WIDE_GAP * element.radius / gap.max(f32::MIN_POSITIVE);
+    (radii * radii).clamp(1.0, element.facet_count as f32)
+}
+
 impl Oracle {
     /// Decides a pair whose source has the unshot radiosity `radiosity` (greatest channel, positive).
     pub fn decide(&self, source: &Element, receiver: &Element, radiosity: f64) -> Decision {
@@ -80,6 +89,15 @@ impl Oracle {
             return Decision::Exchange;
         }
         self.split_larger(source, receiver)
+    }
+
+    /// About how many exchanges lie below a pair: each carries up to the threshold, and clusters that are too
+    /// near or too bent to exchange have to be taken apart, whatever they carry.
+    pub fn expected_exchanges(&self, source: &Element, receiver: &Element, radiosity: f64) -> f32 {
+        let power = radiosity * f64::from(source.area * oracle_form_factor(source, receiver));
+        let gap = source.bounds.distance(receiver.bounds);
+        let parts = parts_at(source, gap) * parts_at(receiver, gap);
+        ((power / self.threshold) as f32).max(parts)
     }
 
     /// True when an exchange would leave too coarse a light on its receiver: `residual` is how far the

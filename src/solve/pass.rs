@@ -14,6 +14,7 @@ use super::observer::Observer;
 use super::oracle::{Decision, Oracle};
 use super::prover::{Knowledge, Proof, Prover};
 use super::push_pull::local_children;
+use super::query_schedule::{Evidence, Queries};
 use super::radiosity::{Gatherer, Radiosity, Shooter};
 use super::sampled_element::{ReceiverSurface, SourceSurface};
 use super::statistics::PassStatistics;
@@ -87,6 +88,9 @@ pub struct PassOutcome {
 fn drop_share(pass: u32) -> f64 {
     1.0e-3 * 0.5f64.powi(pass.min(1000) as i32)
 }
+
+/// Probe rays of a pair: one packet.
+const PROBE_RAYS: u32 = 8;
 
 /// Visits between two questions to the observer: a few hundred microseconds.
 const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
@@ -264,14 +268,14 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     }
 
     fn walk(&mut self, source: &Source, receiver: &Receiver, known: Known) {
-        let greatest = self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x));
+        let greatest = self.greatest(source);
         if greatest <= 0.0 || self.is_interrupted() {
             return;
         }
-        let decision =
-            self.pass
-                .oracle
-                .decide(&source.element, &receiver.element, f64::from(greatest));
+        let decision = self
+            .pass
+            .oracle
+            .decide(&source.element, &receiver.element, greatest);
         match decision {
             Decision::Nothing => {}
             Decision::Drop(power) if self.outcome.dropped + power <= self.drop_budget => {
@@ -284,7 +288,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     || receiver.element.is_triangle();
                 self.split(source, receiver, known, by_source);
             }
-            Decision::Exchange => self.exchange(source, receiver, f64::from(greatest), known),
+            Decision::Exchange => self.exchange(source, receiver, greatest, known),
             Decision::SplitSource => self.split(source, receiver, known, true),
             Decision::SplitReceiver => self.split(source, receiver, known, false),
         }
@@ -292,7 +296,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
 
     /// Asks for a guarantee where it is due, and goes on with the children of one end.
     fn split(&mut self, source: &Source, receiver: &Receiver, known: Known, by_source: bool) {
-        let known = self.prove(source, receiver, known, Prover::before_split);
+        let known = self.prove_before_split(source, receiver, known);
         if known.ends_the_pair(self.pass.config) {
             return;
         }
@@ -303,22 +307,61 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    /// Asks the prover, if there is one, in the way of `ask`, and keeps a new claim.
+    fn prove_before_split(&mut self, source: &Source, receiver: &Receiver, known: Known) -> Known {
+        let greatest = self.greatest(source);
+        let Some(prover) = &mut self.prover else {
+            return known;
+        };
+        let (from, to) = (&source.element, &receiver.element);
+        let expected = self.pass.oracle.expected_exchanges(from, to, greatest);
+        let mut queries = prover.plan_before_split(from, to, known.knowledge, expected);
+        if queries == Queries::Probe {
+            queries = match self.probe(source, to) {
+                Some(evidence) => self.after(evidence, expected),
+                None => Queries::None,
+            };
+        }
+        self.prove(source, receiver, known, queries, expected)
+    }
+
+    fn after(&mut self, evidence: Evidence, expected: f32) -> Queries {
+        match &mut self.prover {
+            Some(prover) => prover.after_evidence(evidence, expected),
+            None => Queries::None,
+        }
+    }
+
+    /// What eight rays say of a pair; `None` if none of them carries light.
+    fn probe(&mut self, source: &Source, receiver: &Element) -> Option<Evidence> {
+        let sampled = self.sample(self.pass.context.embree, source, receiver, PROBE_RAYS);
+        self.outcome.statistics.rays += u64::from(sampled.rays);
+        self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        match sampled.rays {
+            0 => None,
+            n if sampled.rays_blocked == n => Some(Evidence::Blocked),
+            _ if sampled.rays_blocked == 0 => Some(Evidence::Clear),
+            _ => Some(Evidence::Mixed),
+        }
+    }
+
+    /// Asks the prover, if there is one, and keeps a new claim.
     fn prove(
         &mut self,
         source: &Source,
         receiver: &Receiver,
         known: Known,
-        ask: fn(&mut Prover<'a>, &Element, &Element, Knowledge, &mut PassStatistics) -> Proof,
+        queries: Queries,
+        expected: f32,
     ) -> Known {
-        let Some(prover) = &mut self.prover else {
+        let Some(prover) = self.prover.as_mut().filter(|_| queries != Queries::None) else {
             return known;
         };
-        let proof = ask(
-            prover,
+        let proof: Proof = prover.ask(
             &source.element,
             &receiver.element,
             known.knowledge,
+            queries,
+            expected,
             &mut self.outcome.statistics,
         );
         let is_new = proof.knowledge.verdict != known.knowledge.verdict;
@@ -339,6 +382,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             knowledge: proof.knowledge,
             claim,
         }
+    }
+
+    /// Unshot radiosity of a source, greatest channel.
+    fn greatest(&self, source: &Source) -> f64 {
+        f64::from(self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x)))
     }
 
     fn is_interrupted(&mut self) -> bool {
@@ -420,7 +468,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
             return self.split(source, receiver, known, false);
         }
-        let known = self.prove(source, receiver, known, Prover::before_exchange);
+        let queries = match &self.prover {
+            Some(prover) => prover.plan_before_exchange(known.knowledge),
+            None => Queries::None,
+        };
+        let known = self.prove(source, receiver, known, queries, 1.0);
         let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
             (Technique::Unoccluded, _) => 1.0,
             (_, Verdict::Unknown) => {
@@ -490,13 +542,14 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         receiver: &Element,
         known: Known,
     ) -> SampledVisibility {
+        let rays = self.pass.config.rays;
         if self.pass.config.technique == Technique::Blockers {
             // Out of its place while the list lives, since sampling reads the rest of the task.
             let mut prover = self.prover.take();
             let native = prover
                 .as_mut()
                 .and_then(|p| p.blockers(known.knowledge))
-                .map(|list| self.sample(list, source, receiver));
+                .map(|list| self.sample(list, source, receiver, rays));
             self.prover = prover;
             if let Some(sampled) = native {
                 let statistics = &mut self.outcome.statistics;
@@ -505,7 +558,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 return sampled;
             }
         }
-        let sampled = self.sample(self.pass.context.embree, source, receiver);
+        let sampled = self.sample(self.pass.context.embree, source, receiver, rays);
         let statistics = &mut self.outcome.statistics;
         statistics.rays += u64::from(sampled.rays);
         statistics.rays_blocked += u64::from(sampled.rays_blocked);
@@ -520,7 +573,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         {
             return 1.0;
         }
-        self.sample(AllClear, source, receiver).visibility
+        self.sample(AllClear, source, receiver, self.pass.config.rays)
+            .visibility
     }
 
     /// Casts the rays that a claim saves, and judges those that disagree.
@@ -534,7 +588,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             test: self.pass.context.embree,
             segments: &mut segments,
         };
-        self.sample(recording, source, receiver);
+        self.sample(recording, source, receiver, self.pass.config.rays);
         self.outcome
             .check
             .judge(&guarantees.scene, claim, &segments);
@@ -546,6 +600,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         test: impl SegmentTest,
         source: &Source,
         receiver: &Element,
+        rays: u32,
     ) -> SampledVisibility {
         let context = self.pass.context;
         let key = exchange_key(self.pass.key, &source.element, receiver);
@@ -571,7 +626,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 normals: context.normals,
                 area_before: context.area_before,
             },
-            self.pass.config.rays,
+            rays,
             key,
             self.pass.oracle.tau,
         )

@@ -1,4 +1,4 @@
-//! One task's guaranteed tests: when to ask, what to hand down (paper, section 5.3).
+//! One task's guaranteed tests: when to ask, what to hand down (paper, section 5.3; design, section 7).
 //!
 //! Full occlusion is asked first, and ends a pair; then full visibility, which all pairs below
 //! inherit. What is left of the scene in a pair's shaft is handed down to them as a list.
@@ -6,10 +6,10 @@
 use super::config::{SolveConfig, Stride, Technique};
 use super::element::Element;
 use super::guarantees::Guarantees;
+use super::query_schedule::{Evidence, Queries, QuerySchedule};
 use super::statistics::PassStatistics;
 use crate::visibility::{
     BlockerList, OcclusionScratch, SurvivorList, Verdict, VisibilityQuery, VisibilityScratch,
-    WalkLimits,
 };
 
 /// What is known of a pair by the pairs above it.
@@ -21,6 +21,8 @@ pub struct Knowledge {
     level: u32,
     /// Which of the task's lists holds what may block.
     list: u32,
+    /// Exchanges expected below the pair that was last asked about.
+    asked_at: f32,
 }
 
 impl Knowledge {
@@ -29,6 +31,7 @@ impl Knowledge {
         verdict: Verdict::Unknown,
         level: 0,
         list: 0,
+        asked_at: f32::INFINITY,
     };
 
     /// Of a pair one split further down.
@@ -50,6 +53,25 @@ pub struct Proof {
     pub occluder: Option<u32>,
 }
 
+impl Proof {
+    /// Nothing new.
+    pub fn none(knowledge: Knowledge) -> Self {
+        Self {
+            knowledge,
+            occluder: None,
+        }
+    }
+}
+
+/// A list of what may block, and its polygons prepared for segments.
+#[derive(Clone, Debug)]
+struct Remaining {
+    survivors: SurvivorList,
+    blockers: BlockerList,
+    /// Whether `blockers` holds the list; `None` until someone asks.
+    is_short: Option<bool>,
+}
+
 /// The guaranteed tests of one task.
 pub struct Prover<'a> {
     guarantees: &'a Guarantees,
@@ -57,86 +79,90 @@ pub struct Prover<'a> {
     technique: Technique,
     stride: Stride,
     /// Lists in use, one nested in the other.
-    lists: Vec<SurvivorList>,
+    lists: Vec<Remaining>,
     last_occluder: Option<u32>,
     occlusion: OcclusionScratch,
     visibility: VisibilityScratch,
-    blockers: BlockerList,
+    schedule: QuerySchedule,
 }
 
 impl<'a> Prover<'a> {
     /// Ready for the topmost pair; `None` for techniques that prove nothing.
     pub fn new(guarantees: Option<&'a Guarantees>, config: &SolveConfig) -> Option<Self> {
         let guarantees = guarantees.filter(|_| config.technique.proves_visibility())?;
-        Some(Self {
+        let mut prover = Self {
             guarantees,
             query: VisibilityQuery::new(&guarantees.scene),
             technique: config.technique,
             stride: config.stride,
-            lists: vec![guarantees.whole_scene.clone()],
+            lists: Vec::new(),
             last_occluder: None,
             occlusion: OcclusionScratch::default(),
             visibility: VisibilityScratch::default(),
-            blockers: BlockerList::new(&guarantees.scene),
-        })
-    }
-
-    /// Asks about a pair that is about to be split, if its level is one at which to ask.
-    pub fn before_split(
-        &mut self,
-        source: &Element,
-        receiver: &Element,
-        knowledge: Knowledge,
-        statistics: &mut PassStatistics,
-    ) -> Proof {
-        let due = match self.stride {
-            Stride::Every(levels) => knowledge.level.is_multiple_of(levels),
-            Stride::Auto => true,
+            schedule: QuerySchedule::new(config.technique),
         };
+        prover.make_list(0);
+        prover.lists[0].survivors = guarantees.whole_scene.clone();
+        Some(prover)
+    }
+
+    /// What to ask about a pair that is about to be split, and whether to look for evidence first.
+    /// `expected` is how many exchanges are likely below it.
+    pub fn plan_before_split(
+        &mut self,
+        source: &Element,
+        receiver: &Element,
+        knowledge: Knowledge,
+        expected: f32,
+    ) -> Queries {
         // A pair that shares surface has neither a plane between its ends nor an empty shaft.
-        if !due || knowledge.verdict != Verdict::Unknown || source.overlaps(receiver) {
-            return Proof {
-                knowledge,
-                occluder: None,
-            };
+        if knowledge.verdict != Verdict::Unknown || source.overlaps(receiver) {
+            return Queries::None;
         }
-        self.ask(source, receiver, knowledge, statistics)
+        match self.stride {
+            Stride::Every(levels) if knowledge.level.is_multiple_of(levels) => Queries::Both,
+            Stride::Every(_) => Queries::None,
+            // Boxes that meet are rarely parted by one plane, and each is in the other's way.
+            Stride::Auto if source.bounds.distance(receiver.bounds) <= 0.0 => Queries::None,
+            Stride::Auto => self.schedule.before_split(expected, knowledge.asked_at),
+        }
     }
 
-    /// Asks about a pair that is about to exchange.
-    pub fn before_exchange(
+    /// What to ask about a pair that is about to exchange.
+    pub fn plan_before_exchange(&self, knowledge: Knowledge) -> Queries {
+        match self.stride {
+            _ if knowledge.verdict != Verdict::Unknown => Queries::None,
+            Stride::Every(_) => Queries::Both,
+            Stride::Auto => Queries::None,
+        }
+    }
+
+    /// Asks for guarantees about a pair.
+    pub fn ask(
         &mut self,
         source: &Element,
         receiver: &Element,
         knowledge: Knowledge,
+        queries: Queries,
+        expected: f32,
         statistics: &mut PassStatistics,
     ) -> Proof {
-        if knowledge.verdict != Verdict::Unknown {
-            return Proof {
-                knowledge,
-                occluder: None,
-            };
+        let mut known = knowledge;
+        known.asked_at = expected;
+        if queries == Queries::None {
+            return Proof::none(known);
         }
-        self.ask(source, receiver, knowledge, statistics)
-    }
-
-    fn ask(
-        &mut self,
-        source: &Element,
-        receiver: &Element,
-        knowledge: Knowledge,
-        statistics: &mut PassStatistics,
-    ) -> Proof {
         statistics.shafts += 1;
         let (a, b) = (source.shaft_bounds(), receiver.shaft_bounds());
-        let mut known = knowledge;
-        if self.technique.proves_occlusion() {
+        if queries.occlusion() && self.technique.proves_occlusion() {
             let answer = self.guarantees.occluders.query(
                 &a,
                 &b,
                 &mut self.last_occluder,
                 &mut self.occlusion,
             );
+            self.schedule
+                .learn_occlusion(expected, answer.occluder.is_some());
             if answer.occluder.is_some() {
                 statistics.occluded_claims += 1;
                 known.verdict = Verdict::Occluded;
@@ -146,34 +172,57 @@ impl<'a> Prover<'a> {
                 };
             }
         }
+        if !queries.visibility() {
+            return Proof::none(known);
+        }
         let next = knowledge.list as usize + 1;
         if self.lists.len() == next {
-            self.lists.push(SurvivorList::new());
+            self.make_list(next);
         }
         let (above, below) = self.lists.split_at_mut(next);
         let answer = self.query.run(
             &a,
             &b,
-            &above[next - 1],
-            &mut below[0],
-            WalkLimits::default(),
+            &above[next - 1].survivors,
+            &mut below[0].survivors,
+            self.schedule.limits(queries),
             &mut self.visibility,
         );
+        below[0].is_short = None;
+        self.schedule
+            .learn_visibility(expected, answer.verdict == Verdict::Visible);
         known.list = next as u32;
         known.verdict = answer.verdict;
         statistics.visible_claims += u64::from(answer.verdict == Verdict::Visible);
-        Proof {
-            knowledge: known,
-            occluder: None,
-        }
+        Proof::none(known)
+    }
+
+    /// What is left to ask once probes have spoken.
+    pub fn after_evidence(&mut self, evidence: Evidence, expected: f32) -> Queries {
+        self.schedule.after_evidence(evidence, expected)
     }
 
     /// The few polygons that may block a pair, or `None` if they are many.
     pub fn blockers(&mut self, knowledge: Knowledge) -> Option<&BlockerList> {
-        let list = &self.lists[knowledge.list as usize];
-        self.blockers
-            .fill(&self.guarantees.scene, list, MOST_BLOCKERS)
-            .then_some(&self.blockers)
+        let remaining = &mut self.lists[knowledge.list as usize];
+        let is_short = *remaining.is_short.get_or_insert_with(|| {
+            remaining.survivors.len() <= MOST_BLOCKERS
+                && remaining.blockers.fill(
+                    &self.guarantees.scene,
+                    &remaining.survivors,
+                    MOST_BLOCKERS,
+                )
+        });
+        is_short.then_some(&remaining.blockers)
+    }
+
+    fn make_list(&mut self, index: usize) {
+        debug_assert_eq!(self.lists.len(), index);
+        self.lists.push(Remaining {
+            survivors: SurvivorList::new(),
+            blockers: BlockerList::new(&self.guarantees.scene),
+            is_short: None,
+        });
     }
 }
 
