@@ -20,6 +20,8 @@ pub mod solve;
 
 pub mod reference;
 
+pub mod experiment;
+
 pub mod output;
 
 pub mod cli;

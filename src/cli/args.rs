@@ -3,6 +3,7 @@
 use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{OccluderArgs, SceneArgs, SolveArgs};
 use super::typed_number::parse_finite;
+use crate::experiment::AuditConfig;
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -41,6 +42,8 @@ pub enum Command {
     Clusters(ClustersCommand),
     /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
     Occluders(OccludersCommand),
+    /// Check the guarantees of a solve: replay its proofs in exact arithmetic, attack them with rays.
+    Audit(AuditCommand),
 }
 
 /// `certilux solve`
@@ -191,4 +194,49 @@ pub struct OccludersCommand {
     /// What occluders are to be like.
     #[command(flatten)]
     pub occluders: OccluderArgs,
+}
+
+/// `certilux audit`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "A claim says that two elements cannot see each other, or see each other fully. A ray that contradicts one \
+                  counts only if exact arithmetic agrees with the ray. Exit code 1 if a contradiction stands."
+)]
+pub struct AuditCommand {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// How to solve.
+    #[command(flatten)]
+    pub solve: SolveArgs,
+    /// Claims to audit: a uniform sample of those made, or all.
+    #[arg(long, value_name = "N|all", default_value = DEFAULT_CLAIMS, value_parser = parse_claims)]
+    pub claims: usize,
+    /// Rays cast against each claim: half of them uniform, half aimed at borders.
+    #[arg(long, value_name = "N", default_value_t = AuditConfig::default().rays_per_claim, value_parser = clap::value_parser!(u32).range(..=1 << 20))]
+    pub rays_per_claim: u32,
+    /// Claims of full visibility to test against every polygon of the scene.
+    #[arg(long, value_name = "N", default_value_t = AuditConfig::default().brute_force)]
+    pub brute_force: usize,
+    /// Also measure, pass by pass, how much of full occlusion and full visibility is detected, each pass
+    /// from the state that the technique normal leaves.
+    #[arg(long)]
+    pub detection: bool,
+    /// The report.
+    #[arg(long, value_name = "FILE.json")]
+    pub json: Option<PathBuf>,
+}
+
+/// Claims audited unless told.
+const DEFAULT_CLAIMS: &str = "100000";
+
+fn parse_claims(text: &str) -> Result<usize, String> {
+    match text {
+        "all" => Ok(usize::MAX),
+        _ => text
+            .parse()
+            .ok()
+            .filter(|&n| n > 0)
+            .ok_or_else(|| "a whole number from 1, or all, is needed".to_owned()),
+    }
 }

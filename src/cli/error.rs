@@ -1,6 +1,7 @@
 //! Everything that can go wrong on the command line, and its exit code.
 
 use crate::embree::EmbreeError;
+use crate::experiment::AuditError;
 use crate::output::{CameraError, ComparisonError, OutputError};
 use crate::reference::{NothingToCompare, ReferenceError};
 use crate::scene::LoadError;
@@ -62,6 +63,15 @@ pub enum CliError {
     /// The system refused something.
     #[error("{0}")]
     System(String),
+}
+
+impl From<AuditError> for CliError {
+    fn from(error: AuditError) -> Self {
+        match error {
+            AuditError::Solve(error) => Self::Solve(error),
+            AuditError::Interrupted => Self::Interrupted,
+        }
+    }
 }
 
 impl CliError {

@@ -1,6 +1,7 @@
 //! Arguments as typed, then as needed, then the work.
 
 mod args;
+mod audit_command;
 mod clusters_command;
 mod error;
 mod error_command;

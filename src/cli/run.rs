@@ -4,7 +4,7 @@ use super::args::{Cli, Command};
 use super::error::CliError;
 use super::session::Session;
 use super::{
-    clusters_command, error_command, generate_command, interrupt, occluders_command,
+    audit_command, clusters_command, error_command, generate_command, interrupt, occluders_command,
     reference_command, solve_command, view_command,
 };
 use clap::Parser;
@@ -32,6 +32,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Occluders(command) => occluders_command::run(&session, &command),
         Command::Reference(command) => reference_command::run(&session, &command),
         Command::Error(command) => error_command::run(&session, &command),
+        Command::Audit(command) => audit_command::run(&session, &command),
         Command::Generate(command) => generate_command::run(&session, &command),
     }
 }

@@ -29,7 +29,7 @@ pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
 
 /// Stack of a worker: the walk recurses once a level of hierarchy and patches on both ends, about half
 /// a kilobyte each; a chain of clusters can be thousands deep.
-const WORKER_STACK: usize = 64 << 20;
+pub const WORKER_STACK: usize = 64 << 20;
 
 fn solve_and_write(
     session: &Session,

@@ -84,6 +84,8 @@ pub struct SolveConfig {
     pub stride: Stride,
     /// How many claims to keep for an audit: a uniform sample, or all with `usize::MAX`.
     pub keep_claims: usize,
+    /// How many exchanges whose rays were all blocked to keep: a uniform sample of each pass's.
+    pub keep_blocked: usize,
     /// Cast the rays of claimed exchanges all the same, and judge every one that disagrees.
     pub check_claims: bool,
 }
@@ -158,6 +160,7 @@ impl Default for SolveConfig {
             normalise: Normalise::Auto,
             stride: Stride::Auto,
             keep_claims: 0,
+            keep_blocked: 0,
             check_claims: false,
         }
     }

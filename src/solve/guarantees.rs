@@ -4,7 +4,9 @@ use super::config::Technique;
 use crate::cluster::Hierarchy;
 use crate::occluder::{OccluderConfig, OccluderSet, SlabRectangle, extract_occluders};
 use crate::scene::Scene;
-use crate::visibility::{OccluderTree, SceneTree, SurvivorList, Tolerance};
+#[cfg(any(test, feature = "plant-faults"))]
+use crate::visibility::Faults;
+use crate::visibility::{OccluderTree, SceneTree, SurvivorList, Tolerance, VisibilityQuery};
 use std::time::Instant;
 
 /// The occluders and the scene as shafts meet them. Techniques that prove nothing have none of it.
@@ -20,6 +22,9 @@ pub struct Guarantees {
     pub whole_scene: SurvivorList,
     /// Wall time of it all.
     pub seconds: f64,
+    /// What tests plant in visibility queries; nothing can be planted in a product.
+    #[cfg(any(test, feature = "plant-faults"))]
+    faults: Faults,
 }
 
 impl Guarantees {
@@ -58,7 +63,26 @@ impl Guarantees {
             scene: tree,
             occluder_set,
             seconds: start.elapsed().as_secs_f64(),
+            #[cfg(any(test, feature = "plant-faults"))]
+            faults: Faults::NONE,
         }
+    }
+
+    /// The same with faults planted in the engine, before any claim is made.
+    #[cfg(any(test, feature = "plant-faults"))]
+    #[must_use]
+    pub fn with_faults(mut self, faults: Faults) -> Self {
+        self.occluders = self.occluders.with_faults(faults);
+        self.faults = faults;
+        self
+    }
+
+    /// Queries for full visibility.
+    pub fn visibility_query(&self) -> VisibilityQuery<'_> {
+        let query = VisibilityQuery::new(&self.scene);
+        #[cfg(any(test, feature = "plant-faults"))]
+        let query = query.with_faults(self.faults);
+        query
     }
 
     /// Bytes held.

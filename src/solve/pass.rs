@@ -81,6 +81,8 @@ pub struct PassOutcome {
     pub claims: ClaimSample,
     /// What the rays of claimed exchanges said, where they were cast.
     pub check: ClaimCheck,
+    /// Exchanges kept whose rays were all blocked.
+    pub blocked: ClaimSample,
 }
 
 /// Share of the emitted power that may be dropped in pass `k`: all passes together stay below 1e-3 (design,
@@ -141,6 +143,7 @@ pub fn run_pass<const C: usize>(
         .collect();
     let mut sum = PassOutcome {
         claims: ClaimSample::new(config.keep_claims),
+        blocked: ClaimSample::new(config.keep_blocked),
         ..PassOutcome::default()
     };
     for outcome in outcomes {
@@ -149,6 +152,7 @@ pub fn run_pass<const C: usize>(
         sum.interrupted |= outcome.interrupted;
         sum.claims.merge(outcome.claims);
         sum.check.merge(outcome.check);
+        sum.blocked.merge(outcome.blocked);
     }
     sum.statistics.pass = pass;
     sum
@@ -218,6 +222,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             prover: Prover::new(pass.context.guarantees, pass.config),
             outcome: PassOutcome {
                 claims: ClaimSample::new(pass.config.keep_claims),
+                blocked: ClaimSample::new(pass.config.keep_blocked),
                 ..PassOutcome::default()
             },
             segments: Vec::new(),
@@ -532,7 +537,21 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         let statistics = &mut self.outcome.statistics;
         statistics.exchanges_blocked += u64::from(sampled.all_blocked);
         statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
+        if sampled.all_blocked && self.outcome.blocked.is_wanted() {
+            self.keep_blocked(&source.element, &receiver.element);
+        }
         Some(sampled.visibility)
+    }
+
+    fn keep_blocked(&mut self, source: &Element, receiver: &Element) {
+        let pair = Claim {
+            pass: self.pass.pass,
+            source: source.name(),
+            receiver: receiver.name(),
+            occluder: None,
+        };
+        let key = exchange_key(self.pass.key, source, receiver);
+        self.outcome.blocked.offer(key, pair);
     }
 
     /// Casts an exchange's samples: natively against a short list of polygons, else through Embree.

@@ -92,7 +92,7 @@ impl<'a> Prover<'a> {
         let guarantees = guarantees.filter(|_| config.technique.proves_visibility())?;
         let mut prover = Self {
             guarantees,
-            query: VisibilityQuery::new(&guarantees.scene),
+            query: guarantees.visibility_query(),
             technique: config.technique,
             stride: config.stride,
             lists: Vec::new(),

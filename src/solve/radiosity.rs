@@ -84,7 +84,7 @@ impl<const C: usize> Gatherer<C> {
 }
 
 /// All the light of a solve.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Radiosity<const C: usize> {
     /// One a node of the cut, in facet order.
     pub shooters: Vec<Shooter<C>>,

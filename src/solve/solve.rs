@@ -234,10 +234,37 @@ impl<'a, const C: usize> Solver<'a, C> {
         })
     }
 
-    /// Runs one pass and pushes its light: its outcome and the normalising scale.
-    fn pass(&mut self, pass: u32, normalise: bool) -> Result<(PassOutcome, f64), SolveError> {
+    /// Runs pass number `pass` with this solve's own settings: the light after it is what the next
+    /// starts from.
+    ///
+    /// # Errors
+    /// An interruption by the observer.
+    pub fn advance(&mut self, pass: u32) -> Result<PassOutcome, SolveError> {
+        let normalise = self.normalises();
+        self.pass(pass, normalise).map(|(outcome, _)| outcome)
+    }
+
+    /// Runs pass number `pass` with other settings from the present light, which stays as it is.
+    ///
+    /// # Errors
+    /// An interruption by the observer.
+    pub fn trial(&self, pass: u32, config: &SolveConfig) -> Result<PassOutcome, SolveError> {
+        let mut light = self.light.clone();
         let start = Instant::now();
-        let context = SolveContext {
+        let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
+        let mut outcome = run_pass(self.context(), config, &mut light, pass, greatest);
+        outcome.statistics.seconds = start.elapsed().as_secs_f64();
+        match outcome.interrupted {
+            false => Ok(outcome),
+            true => Err(SolveError::Interrupted {
+                pass,
+                completed: pass - 1,
+            }),
+        }
+    }
+
+    fn context(&self) -> SolveContext<'_> {
+        SolveContext {
             scene: self.scene,
             hierarchy: self.hierarchy,
             embree: self.embree,
@@ -247,10 +274,17 @@ impl<'a, const C: usize> Solver<'a, C> {
             polygon_area: self.table.polygon_area,
             tau: self.scene.tau(),
             observer: self.observer,
-        };
+        }
+    }
+
+    /// Runs one pass and pushes its light: its outcome and the normalising scale.
+    fn pass(&mut self, pass: u32, normalise: bool) -> Result<(PassOutcome, f64), SolveError> {
+        let start = Instant::now();
         let shot = self.unshot_power();
         let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
-        let mut outcome = run_pass(context, self.config, &mut self.light, pass, greatest);
+        let mut light = std::mem::take(&mut self.light);
+        let mut outcome = run_pass(self.context(), self.config, &mut light, pass, greatest);
+        self.light = light;
         if outcome.interrupted {
             return Err(SolveError::Interrupted {
                 pass,

@@ -1,7 +1,7 @@
 //! A segment against a whole scene, by the definitions of [`Tolerance`], by brute force: what settles
 //! a ray that contradicts a claim.
 
-use super::segment::{surely_blocked, surely_clear_of};
+use super::segment::{is_off, surely_blocked, surely_clear_of};
 use crate::math::{Aabb, PolygonId};
 use crate::visibility::{SceneTree, Tolerance};
 use glam::{DVec3, Vec3};
@@ -11,13 +11,18 @@ use glam::{DVec3, Vec3};
 pub enum SegmentStanding {
     /// This polygon surely blocks it.
     Blocked(PolygonId),
-    /// It is surely clear of every polygon.
+    /// It is surely clear of every polygon that neither of its ends lies on, within `tau`.
     Clear,
-    /// Neither: it grazes, passes a shared edge or a welded crack, or starts within the margins.
+    /// Neither: it grazes, passes a shared edge or a welded crack.
     Between,
 }
 
 /// Judges a segment exactly. Linear in the number of polygons.
+///
+/// A segment between surfaces starts on a polygon, and cut back by `tau` it is still within `weld` of
+/// it, both being the same length: by the letter of the definition none would ever be clear. So the
+/// polygons that an end lies on do not count. No occlusion claim rests on one of those: what blocks
+/// a claimed pair lies in a slab that both elements are beyond by more than `tau`.
 pub fn judge_segment(scene: &SceneTree, p: DVec3, q: DVec3) -> SegmentStanding {
     let tolerance = scene.tolerance();
     let near = near_segment(scene, p, q, tolerance);
@@ -28,9 +33,11 @@ pub fn judge_segment(scene: &SceneTree, p: DVec3, q: DVec3) -> SegmentStanding {
         return SegmentStanding::Blocked(id);
     }
     let clear = (q - p).length() > 3.0 * f64::from(tolerance.tau)
-        && near
-            .iter()
-            .all(|(_, corners)| surely_clear_of(p, q, *corners, tolerance));
+        && near.iter().all(|(_, corners)| {
+            surely_clear_of(p, q, *corners, tolerance)
+                || !is_off(p, *corners, tolerance.tau)
+                || !is_off(q, *corners, tolerance.tau)
+        });
     if clear {
         SegmentStanding::Clear
     } else {
@@ -89,6 +96,15 @@ mod tests {
         );
         assert_eq!(
             judge([0.4, 0.4, 0.2], [0.4, 0.4, 1.2]),
+            SegmentStanding::Clear
+        );
+        // From one sheet past the other, and from one sheet to the other.
+        assert_eq!(
+            judge([0.45, 0.45, 0.0], [0.3, 0.4, 1.2]),
+            SegmentStanding::Clear
+        );
+        assert_eq!(
+            judge([0.1, 0.05, 0.0], [0.1, 0.05, 1.0]),
             SegmentStanding::Clear
         );
         // Through the border, and through the seam of the two triangles.

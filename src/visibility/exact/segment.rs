@@ -58,6 +58,15 @@ pub fn surely_clear_of(p: DVec3, q: DVec3, triangle: [Vec3; 3], tolerance: &Tole
         && (0..3).all(|i| segments_farther(&p, &q, &v[i], &v[(i + 1) % 3], &weld))
 }
 
+/// True exactly if `x` is farther than `limit` from the triangle.
+pub(super) fn is_off(x: DVec3, triangle: [Vec3; 3], limit: f32) -> bool {
+    let x = DyadicVector::from(x);
+    let v = triangle.map(|c| DyadicVector::from(c.as_dvec3()));
+    let limit = Dyadic::from(limit).square();
+    farther_from_plane_part(&x, &v, &limit)
+        && (0..3).all(|i| point_farther(&x, &v[i], &v[(i + 1) % 3], &limit))
+}
+
 fn crosses(p: &DyadicVector, q: &DyadicVector, v: &[DyadicVector; 3]) -> bool {
     let normal = v[1].minus(&v[0]).cross(&v[2].minus(&v[0]));
     let (dp, dq) = (normal.dot(&p.minus(&v[0])), normal.dot(&q.minus(&v[0])));

@@ -1,0 +1,403 @@
+//! The audit of a solve's guarantees (design, section 8): its claims are replayed in exact arithmetic,
+//! then attacked with rays.
+//!
+//! 64 random rays would miss a claim that is wrong on a hundred-thousandth of its segments; so once
+//! per occluder that was claimed its rectangle is shown to lie in continuous surface, per occlusion
+//! claim all vertex pairs are checked against both faces of the slab, and per visibility claim of a
+//! sample every polygon of the scene against the hull of the pair.
+
+use super::continuous_surface::{SurfaceProof, prove_surface};
+use super::ray_attack::{AttackOutcome, RayAttack};
+use super::shaft_replay::replay_visibility;
+use crate::math::{PolygonId, hash_u64};
+use crate::occluder::Occluder;
+use crate::solve::{
+    Claim, ElementName, Guarantees, Observer, PreparedScene, SolveConfig, SolveError, solve,
+};
+use crate::visibility::exact::{SegmentStanding, replay_occlusion};
+use glam::DVec3;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// What to audit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct AuditConfig {
+    /// Claims of the solve that are kept: a uniform sample, or all with `usize::MAX`.
+    pub claims: usize,
+    /// Rays cast against each.
+    pub rays_per_claim: u32,
+    /// Visibility claims of the sample whose shafts are tested against every polygon.
+    pub brute_force: usize,
+}
+
+impl Default for AuditConfig {
+    fn default() -> Self {
+        Self {
+            claims: 100_000,
+            rays_per_claim: 64,
+            // About a second where a thousand polygons stand in the pair's box.
+            brute_force: 200,
+        }
+    }
+}
+
+/// Why there is no report.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AuditError {
+    /// The solve ended without a result.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The observer asked to stop.
+    #[error("the audit was interrupted")]
+    Interrupted,
+}
+
+/// Contradictions that are kept for the report; more are counted only.
+const KEPT_FLAWS: usize = 100;
+
+/// Claims between two questions whether to stop.
+const BATCH: usize = 4096;
+
+/// What the audit found.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct AuditReport {
+    /// Claims that the solve made.
+    pub claims_made: u64,
+    /// Claims audited.
+    pub claims_audited: u64,
+    /// Those of full occlusion.
+    pub occlusion_claims: u64,
+    /// Those of full visibility.
+    pub visibility_claims: u64,
+    /// Occluders that these claims rest on.
+    pub occluders_claimed: u64,
+    /// Those shown to lie in continuous surface.
+    pub occluders_proved: u64,
+    /// Those of them whose surface is not flat to the weld distance, proved by their boundary.
+    pub occluders_proved_by_boundary: u64,
+    /// Occlusion claims whose proof holds in exact arithmetic.
+    pub occlusion_proofs: u64,
+    /// Visibility claims tested against every polygon.
+    pub visibility_proofs: u64,
+    /// Polygons shown to be out of the way of those.
+    pub polygons_proved: u64,
+    /// Polygons that reach into a shaft by too little to block any segment surely.
+    pub polygons_undecided: u64,
+    /// Rays cast.
+    pub rays: u64,
+    /// Those uniform over both elements.
+    pub rays_uniform: u64,
+    /// Those aimed at borders.
+    pub rays_aimed: u64,
+    /// Rays on which Embree contradicts the claim.
+    pub contradictions_by_embree: u64,
+    /// Contradictions that stand in exact arithmetic, and proofs that do not hold.
+    pub contradictions_standing: u64,
+    /// The first of them.
+    pub flaws: Vec<Flaw>,
+}
+
+/// One contradiction that stands.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Flaw {
+    /// The rectangle of a claimed occluder does not lie in continuous surface.
+    OccluderOpen {
+        /// Index of the occluder.
+        occluder: u32,
+        /// Its node of the hierarchy.
+        node: u32,
+        /// A point of its plane that nothing covers, in the file's units.
+        at: [f64; 3],
+    },
+    /// The occluder does not cut every segment of the pair.
+    OcclusionProof {
+        /// The claim.
+        claim: ClaimRecord,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A polygon stands in a shaft that was claimed empty.
+    PolygonInShaft {
+        /// The claim.
+        claim: ClaimRecord,
+        /// The polygon.
+        polygon: u32,
+        /// Face of the file that it came from.
+        source_face: u32,
+        /// A segment that it blocks, in the file's units.
+        segment: [[f64; 3]; 2],
+    },
+    /// A ray refutes the claim.
+    Segment {
+        /// The claim.
+        claim: ClaimRecord,
+        /// Its ends, in the file's units.
+        segment: [[f64; 3]; 2],
+        /// The polygon that surely blocks it; none where it is surely clear.
+        blocked_by: Option<u32>,
+    },
+}
+
+/// A claim in words that a report can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ClaimRecord {
+    /// The pass that made it.
+    pub pass: u32,
+    /// One element.
+    pub source: ElementRecord,
+    /// The other.
+    pub receiver: ElementRecord,
+    /// The occluder; none claims full visibility.
+    pub occluder: Option<u32>,
+}
+
+/// An element: a node, and the path of splits to a patch (1 for a whole node).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ElementRecord {
+    /// Node of the hierarchy.
+    pub node: u32,
+    /// Path to the patch.
+    pub path: u64,
+}
+
+impl From<&Claim> for ClaimRecord {
+    fn from(claim: &Claim) -> Self {
+        let record = |name: ElementName| ElementRecord {
+            node: name.node.0,
+            path: name.path.0,
+        };
+        Self {
+            pass: claim.pass,
+            source: record(claim.source),
+            receiver: record(claim.receiver),
+            occluder: claim.occluder,
+        }
+    }
+}
+
+impl AuditReport {
+    /// True when a contradiction stands.
+    pub fn is_refuted(&self) -> bool {
+        self.contradictions_standing > 0
+    }
+
+    fn add(&mut self, flaw: Flaw) {
+        self.contradictions_standing += 1;
+        if self.flaws.len() < KEPT_FLAWS {
+            self.flaws.push(flaw);
+        }
+    }
+
+    fn merge(&mut self, part: Self) {
+        self.occlusion_claims += part.occlusion_claims;
+        self.visibility_claims += part.visibility_claims;
+        self.occlusion_proofs += part.occlusion_proofs;
+        self.visibility_proofs += part.visibility_proofs;
+        self.polygons_proved += part.polygons_proved;
+        self.polygons_undecided += part.polygons_undecided;
+        self.rays_uniform += part.rays_uniform;
+        self.rays_aimed += part.rays_aimed;
+        self.contradictions_by_embree += part.contradictions_by_embree;
+        self.contradictions_standing += part.contradictions_standing;
+        let room = KEPT_FLAWS - self.flaws.len();
+        self.flaws.extend(part.flaws.into_iter().take(room));
+    }
+}
+
+/// Solves the scene and audits the claims of the solve. The same report at any number of threads.
+///
+/// # Errors
+/// Those of the solve, or an interruption by the observer.
+pub fn audit(
+    prepared: &PreparedScene,
+    solve_config: &SolveConfig,
+    config: &AuditConfig,
+    observer: &dyn Observer,
+) -> Result<AuditReport, AuditError> {
+    let solve_config = SolveConfig {
+        keep_claims: config.claims,
+        ..solve_config.clone()
+    };
+    let solved = solve(prepared, &solve_config, observer)?;
+    let mut report = AuditReport {
+        claims_made: solved
+            .passes
+            .iter()
+            .map(|p| p.occluded_claims + p.visible_claims)
+            .sum(),
+        claims_audited: solved.claims.len() as u64,
+        ..AuditReport::default()
+    };
+    if let Some(guarantees) = &prepared.guarantees {
+        let auditor = Auditor::new(prepared, guarantees, config, solve_config.seed);
+        auditor.occluders(&solved.claims, &mut report);
+        auditor.claims(&solved.claims, &mut report, observer)?;
+    }
+    report.rays = report.rays_uniform + report.rays_aimed;
+    Ok(report)
+}
+
+struct Auditor<'a> {
+    prepared: &'a PreparedScene,
+    guarantees: &'a Guarantees,
+    attack: RayAttack<'a>,
+    brute_force: usize,
+    seed: u64,
+}
+
+impl<'a> Auditor<'a> {
+    fn new(
+        prepared: &'a PreparedScene,
+        guarantees: &'a Guarantees,
+        config: &AuditConfig,
+        seed: u64,
+    ) -> Self {
+        Self {
+            prepared,
+            guarantees,
+            attack: RayAttack::new(prepared, &guarantees.scene, config.rays_per_claim),
+            brute_force: config.brute_force,
+            seed,
+        }
+    }
+
+    fn occluder(&self, index: u32) -> &'a Occluder {
+        &self.guarantees.occluder_set.occluders[index as usize]
+    }
+
+    /// Once per occluder: does its rectangle lie in continuous surface?
+    fn occluders(&self, claims: &[Claim], report: &mut AuditReport) {
+        let mut claimed: Vec<u32> = claims.iter().filter_map(|c| c.occluder).collect();
+        claimed.sort_unstable();
+        claimed.dedup();
+        report.occluders_claimed = claimed.len() as u64;
+        let weld = f64::from(self.guarantees.scene.tolerance().weld);
+        let proofs: Vec<Result<SurfaceProof, DVec3>> = claimed
+            .par_iter()
+            .map(|&index| {
+                prove_surface(
+                    &self.prepared.scene,
+                    &self.prepared.hierarchy,
+                    self.occluder(index),
+                    weld,
+                )
+            })
+            .collect();
+        for (&occluder, proof) in claimed.iter().zip(proofs) {
+            match proof {
+                Ok(proof) => {
+                    report.occluders_proved += 1;
+                    let by_boundary = proof == SurfaceProof::Chain;
+                    report.occluders_proved_by_boundary += u64::from(by_boundary);
+                }
+                Err(at) => report.add(Flaw::OccluderOpen {
+                    occluder,
+                    node: self.occluder(occluder).node.0,
+                    at: self.in_file(at),
+                }),
+            }
+        }
+    }
+
+    fn claims(
+        &self,
+        claims: &[Claim],
+        report: &mut AuditReport,
+        observer: &dyn Observer,
+    ) -> Result<(), AuditError> {
+        // The first visibility claims of a uniform sample in random order are one themselves.
+        let brute_forced = claims
+            .iter()
+            .enumerate()
+            .filter(|(_, claim)| claim.occluder.is_none())
+            .nth(self.brute_force)
+            .map_or(claims.len(), |(index, _)| index);
+        for (batch, claims) in claims.chunks(BATCH).enumerate() {
+            if observer.interrupted() {
+                return Err(AuditError::Interrupted);
+            }
+            let parts: Vec<AuditReport> = claims
+                .par_iter()
+                .enumerate()
+                .map(|(i, claim)| self.claim(claim, batch * BATCH + i < brute_forced))
+                .collect();
+            for part in parts {
+                report.merge(part);
+            }
+        }
+        Ok(())
+    }
+
+    fn claim(&self, claim: &Claim, brute_force: bool) -> AuditReport {
+        let mut report = AuditReport::default();
+        let elements = claim.elements(&self.prepared.scene, &self.prepared.hierarchy);
+        let [a, b] = elements.each_ref().map(|e| e.shaft_bounds());
+        let occluder = claim.occluder.map(|index| self.occluder(index));
+        let scene = &self.guarantees.scene;
+        if let Some(occluder) = occluder {
+            report.occlusion_claims += 1;
+            match replay_occlusion(&occluder.slab, &a, &b, scene.tolerance()) {
+                Ok(()) => report.occlusion_proofs += 1,
+                Err(flaw) => report.add(Flaw::OcclusionProof {
+                    claim: claim.into(),
+                    reason: flaw.to_string(),
+                }),
+            }
+        } else {
+            report.visibility_claims += 1;
+            if brute_force {
+                let replay = replay_visibility(scene, &a, &b);
+                report.visibility_proofs += 1;
+                report.polygons_proved += replay.proved;
+                report.polygons_undecided += replay.undecided;
+                if let Some((polygon, segment)) = replay.blocked {
+                    report.add(Flaw::PolygonInShaft {
+                        claim: claim.into(),
+                        polygon: polygon.0,
+                        source_face: self.source_face(polygon),
+                        segment: segment.map(|p| self.in_file(p)),
+                    });
+                }
+            }
+        }
+        let outcome = self
+            .attack
+            .attack([&elements[0], &elements[1]], occluder, self.key(claim));
+        self.add_rays(&mut report, claim, &outcome);
+        report
+    }
+
+    fn add_rays(&self, report: &mut AuditReport, claim: &Claim, outcome: &AttackOutcome) {
+        report.rays_uniform += outcome.uniform;
+        report.rays_aimed += outcome.aimed;
+        report.contradictions_by_embree += outcome.contradicted;
+        if let Some(refutation) = outcome.refutation {
+            report.add(Flaw::Segment {
+                claim: claim.into(),
+                segment: refutation.segment.map(|p| self.in_file(p.as_dvec3())),
+                blocked_by: match refutation.standing {
+                    SegmentStanding::Blocked(polygon) => Some(polygon.0),
+                    _ => None,
+                },
+            });
+            report.contradictions_standing += outcome.standing - 1;
+        }
+    }
+
+    fn key(&self, claim: &Claim) -> u64 {
+        let end = |name: ElementName| hash_u64(u64::from(name.node.0) ^ hash_u64(name.path.0));
+        let pair = hash_u64(end(claim.source)).wrapping_add(end(claim.receiver));
+        hash_u64(pair ^ hash_u64(self.seed ^ u64::from(claim.pass)))
+    }
+
+    fn source_face(&self, polygon: PolygonId) -> u32 {
+        self.prepared.scene.polygons[polygon.index()].source_face
+    }
+
+    fn in_file(&self, point: DVec3) -> [f64; 3] {
+        let map = &self.prepared.scene.normalisation;
+        (point / map.scale + map.centre).to_array()
+    }
+}

@@ -1,0 +1,98 @@
+//! The audit on random scenes made to be nasty: torn, folded, doubled, abutting and overlapping walls,
+//! slivers, curved things, contacts, at any size and place.
+
+mod pieces;
+mod scene;
+
+use certilux::embree::DeviceConfig;
+use certilux::experiment::{AuditConfig, AuditReport, audit};
+use certilux::occluder::OccluderConfig;
+use certilux::scene::{LoadConfig, SidesMode, load_text};
+use certilux::solve::{PreparedScene, Silent, SolveConfig, Stop, Technique};
+use scene::{MTL, nasty_scene};
+
+fn audit_of(seed: u64) -> AuditReport {
+    let obj = nasty_scene(seed);
+    let files = [("m.mtl", MTL.as_bytes())];
+    let scene = load_text("nasty", obj.as_bytes(), &files, &LoadConfig::default())
+        .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+    let solve = SolveConfig {
+        technique: Technique::Occlusion,
+        epsilon: 1.0e-4,
+        stop: Stop::Passes(2),
+        seed,
+        ..SolveConfig::default()
+    };
+    // Every other scene with an extraction that takes what it can get.
+    let occluders = match seed % 2 {
+        0 => OccluderConfig::default(),
+        _ => OccluderConfig {
+            per_cluster: 12,
+            min_area: 1.0e-5,
+            flatness_degrees: 10.0,
+            cone_degrees: 180.0,
+            flush: true,
+        },
+    };
+    let prepared = PreparedScene::new(scene, SidesMode::Auto, seed, &DeviceConfig::default())
+        .expect("Embree opens")
+        .with_guarantees(solve.technique, &occluders);
+    let config = AuditConfig {
+        claims: 4_000,
+        rays_per_claim: 64,
+        brute_force: 40,
+    };
+    audit(&prepared, &solve, &config, &Silent).expect("audits")
+}
+
+/// Audits the seeds; a line each, and the sums at the end.
+fn audit_seeds(seeds: std::ops::Range<u64>) {
+    let mut sum = AuditReport::default();
+    let mut bad = Vec::new();
+    for seed in seeds.clone() {
+        let report = audit_of(seed);
+        println!(
+            "seed {seed}: {} of {} claims ({} occluded, {} visible), {}/{} occluders proved, {} rays, {} contradictions by Embree, {} stand",
+            report.claims_audited,
+            report.claims_made,
+            report.occlusion_claims,
+            report.visibility_claims,
+            report.occluders_proved,
+            report.occluders_claimed,
+            report.rays,
+            report.contradictions_by_embree,
+            report.contradictions_standing
+        );
+        if report.is_refuted() {
+            println!("  {:?}", report.flaws[0]);
+            bad.push(seed);
+        }
+        sum.claims_audited += report.claims_audited;
+        sum.occlusion_claims += report.occlusion_claims;
+        sum.visibility_claims += report.visibility_claims;
+        sum.occluders_claimed += report.occluders_claimed;
+        sum.occluders_proved += report.occluders_proved;
+        sum.occluders_proved_by_boundary += report.occluders_proved_by_boundary;
+        sum.visibility_proofs += report.visibility_proofs;
+        sum.polygons_undecided += report.polygons_undecided;
+        sum.rays += report.rays;
+        sum.contradictions_by_embree += report.contradictions_by_embree;
+        sum.contradictions_standing += report.contradictions_standing;
+    }
+    println!("{seeds:?}: {sum:?}");
+    assert!(sum.occlusion_claims > 0 && sum.visibility_claims > 0 && sum.rays > 0);
+    assert!(bad.is_empty(), "contradictions stand in seeds {bad:?}");
+}
+
+#[test]
+fn claims_hold_in_a_few_nasty_scenes() {
+    audit_seeds(0..4);
+}
+
+#[test]
+#[ignore = "takes many minutes"]
+fn claims_hold_in_many_nasty_scenes() {
+    let count = std::env::var("CERTILUX_NASTY_SCENES").ok();
+    let count = count.and_then(|n| n.parse().ok()).unwrap_or(400);
+    audit_seeds(4..4 + count);
+}
