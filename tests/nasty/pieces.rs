@@ -11,7 +11,7 @@ pub struct Dice(u64);
 
 impl Dice {
     pub fn new(seed: u64) -> Self {
-        Self(hash_u64(seed ^ 0x6e61_7374_79))
+        Self(hash_u64(seed ^ 0x6e_6173_7479))
     }
 
     pub fn unit(&mut self) -> f64 {
