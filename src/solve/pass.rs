@@ -535,9 +535,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             }
         }
         let statistics = &mut self.outcome.statistics;
-        statistics.exchanges_blocked += u64::from(sampled.all_blocked);
+        // Where no sample carries light there was no ray, and nothing that stands in its way.
+        let blocked = sampled.all_blocked && sampled.rays_blocked > 0;
+        statistics.exchanges_blocked += u64::from(blocked);
         statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
-        if sampled.all_blocked && self.outcome.blocked.is_wanted() {
+        if blocked && self.outcome.blocked.is_wanted() {
             self.keep_blocked(&source.element, &receiver.element);
         }
         Some(sampled.visibility)
