@@ -1,12 +1,13 @@
 # Every recipe stands alone on a fresh machine: set-up comes first and does nothing the second time.
 
-.PHONY: help setup demo test check check-long bench
+.PHONY: help setup demo test check check-long bench fuzz
 .DEFAULT_GOAL := help
 
 help:
 	@echo 'make demo        build, generate a furnished two-room scene and solve it'
 	@echo 'make test        the tests'
-	@echo 'make check       the whole gate: format, lints, tests, documentation, licences'
+	@echo 'make check       the whole gate: format, lints, tests, documentation, licences, a short fuzz'
+	@echo 'make fuzz        FUZZ_SECONDS=15 of fuzzing a target'
 	@echo 'make check-long  what takes too long for every change'
 	@echo 'make bench       Embree packet benchmarks (bench/)'
 	@echo 'make setup       only bring what the build needs'
@@ -29,10 +30,23 @@ check:
 	cargo test
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps
 	cargo deny check licenses bans sources
+	$(MAKE) fuzz
+
+# Stable Rust has no sanitizers: `-s none`. `fuzz/seeds` holds what is worth keeping, and what once failed.
+FUZZ_SECONDS = 15
+FUZZ_TARGETS = loader extract occlusion visibility
+fuzz:
+	@./setup.sh --check
+	for target in $(FUZZ_TARGETS); do \
+		mkdir -p fuzz/corpus/$$target; \
+		cargo fuzz run -s none $$target fuzz/corpus/$$target fuzz/seeds/$$target -- \
+			-max_total_time=$(FUZZ_SECONDS) -timeout=20 -verbosity=0 || exit 1; \
+	done
 
 # Tests marked `ignored` take minutes each.
 check-long: setup
 	cargo test -- --ignored
+	$(MAKE) fuzz FUZZ_SECONDS=3600
 
 bench: setup
 	cargo bench --features c-baseline --bench embree_packets

@@ -3,7 +3,7 @@
 # libclang (for bindgen) and a C++ compiler. Says what it does; does nothing the second time.
 #
 #   ./setup.sh            what building, testing and the demo need
-#   ./setup.sh --check    the same, and the tools of `make check` (rustfmt, clippy, cargo-deny)
+#   ./setup.sh --check    the same, and the tools of `make check` (rustfmt, clippy, cargo-deny, cargo-fuzz)
 #
 # Embree is taken from, in this order (build.rs searches in the same order):
 #   1. $EMBREE_DIR, if set: a prefix with include/embree4 and lib; never changed here;
@@ -23,6 +23,7 @@ WHEEL_SHA256=2cd0f7d5c6342e6247e31f700761689cae7829454d8c6de0c41e62124a023e1f
 HEADERS_SUITE=trixie
 # Pinned, so that a new lint of the tool cannot fail an old commit.
 CARGO_DENY=0.20.2
+CARGO_FUZZ=0.13.2
 
 say() { printf 'setup: %s\n' "$*"; }
 fail() { printf 'setup: %s\n' "$*" >&2; exit 1; }
@@ -248,12 +249,17 @@ setup_check_tools() {
         say "adding $tool to the toolchain"
         rustup component add "$tool"
     done
-    if [ "$(cargo deny --version 2>/dev/null)" != "cargo-deny $CARGO_DENY" ]; then
-        say "building cargo-deny $CARGO_DENY (a few minutes, once)"
-        # It runs for seconds: optimising it would take longer than it ever saves.
-        CARGO_PROFILE_RELEASE_OPT_LEVEL=0 CARGO_PROFILE_RELEASE_LTO=off \
-            cargo install --quiet --locked cargo-deny --version "$CARGO_DENY"
-    fi
+    install_tool deny "$CARGO_DENY"
+    install_tool fuzz "$CARGO_FUZZ"
+}
+
+# install_tool NAME VERSION: builds cargo-NAME unless that version is there.
+install_tool() {
+    [ "$(cargo "$1" --version 2>/dev/null)" != "cargo-$1 $2" ] || return 0
+    say "building cargo-$1 $2 (a few minutes, once)"
+    # It runs for seconds: optimising it would take longer than it ever saves.
+    CARGO_PROFILE_RELEASE_OPT_LEVEL=0 CARGO_PROFILE_RELEASE_LTO=off \
+        cargo install --quiet --locked "cargo-$1" --version "$2"
 }
 
 case "${1:-}" in

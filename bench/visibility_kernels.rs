@@ -26,6 +26,8 @@ use std::time::Instant;
 const REPEATS: usize = 7;
 /// Descents from the root.
 const CHAINS: u64 = 3_000;
+/// Lists filled and asked in a repeat.
+const BLOCKER_RUNS: usize = 100_000;
 /// Levels of patches below a polygon.
 const PATCH_LEVELS: u32 = 4;
 
@@ -329,7 +331,8 @@ fn blocker_cases(
 fn blockers(tree: &SceneTree, cases: &[(SurvivorList, SegmentOctet)], most: usize) -> [u64; 4] {
     let mut list = BlockerList::new(tree);
     let mut counts = [0; 4];
-    for (left, segments) in cases {
+    // Few cases: again and again, or the clock is too coarse for them.
+    for (left, segments) in cases.iter().cycle().take(BLOCKER_RUNS) {
         black_box(list.fill(tree, left, most));
         counts[1] += list.len() as u64;
         counts[2] += u64::from(list.blocked8(segments) == 255);

@@ -1,0 +1,47 @@
+//! No claim of full occlusion that exact arithmetic does not bear out, and none that a descendant's
+//! rounding could break.
+
+#![no_main]
+
+use certilux::math::Aabb;
+use certilux::visibility::exact::replay_occlusion;
+use certilux::visibility::{BoundsShape, ElementBounds, OccluderTree, OcclusionScratch, Tolerance};
+use certilux_fuzz::{Bytes, element, slab};
+use glam::Vec3;
+use libfuzzer_sys::fuzz_target;
+
+/// The corners moved each its own way, by almost what descendants may stray.
+fn strayed(bounds: &ElementBounds, bytes: &mut Bytes, step: f32) -> ElementBounds {
+    let corners: Vec<Vec3> = bounds
+        .corners()
+        .map(|c| c + bytes.point().normalize_or_zero() * step)
+        .collect();
+    // Boxes and slabs as loose corners: the replay only asks for corners.
+    ElementBounds::from_polygon(&corners)
+}
+
+fuzz_target!(|data: &[u8]| {
+    let bytes = &mut Bytes::new(data);
+    let slabs: Vec<_> = (0..=bytes.below(10)).map(|_| slab(bytes)).collect();
+    let (a, b) = (element(bytes), element(bytes));
+    let cube = Aabb {
+        min: Vec3::splat(-0.5),
+        max: Vec3::splat(0.5),
+    };
+    let tolerance = Tolerance::of_scene(cube);
+    let tree = OccluderTree::build(&slabs, tolerance);
+    let answer = tree.query(&a, &b, &mut None, &mut OcclusionScratch::default());
+    let every = (0..slabs.len() as u32).filter(|&id| tree.occluded_by(id, &a, &b));
+    let claims: Vec<u32> = every.collect();
+    // What the walk finds, trying each finds too; and the other way round.
+    assert_eq!(answer.occluder.is_some(), !claims.is_empty());
+    for id in claims {
+        let slab = &slabs[id as usize];
+        assert_eq!(replay_occlusion(slab, &a, &b, &tolerance), Ok(()));
+        if a.shape() != BoundsShape::Box {
+            let a = strayed(&a, bytes, 0.9 * tolerance.nesting);
+            let b = strayed(&b, bytes, 0.9 * tolerance.nesting);
+            assert_eq!(replay_occlusion(slab, &a, &b, &tolerance), Ok(()));
+        }
+    }
+});
