@@ -1,7 +1,9 @@
 //! The command line as typed.
 
 use super::reference_args::{ErrorCommand, ReferenceCommand};
-use super::solve_args::{OccluderArgs, SceneArgs, SolveArgs};
+use super::solve_args::{
+    OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
+};
 use super::typed_number::parse_finite;
 use crate::experiment::AuditConfig;
 use clap::{Parser, Subcommand};
@@ -40,6 +42,8 @@ pub enum Command {
     Generate(GenerateCommand),
     /// Write the face clusters of a scene in colours, to look at (paper, Fig. 1).
     Clusters(ClustersCommand),
+    /// Techniques side by side: the paper's Table 1.
+    Compare(CompareCommand),
     /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
     Occluders(OccludersCommand),
     /// Check the guarantees of a solve: replay its proofs in exact arithmetic, attack them with rays.
@@ -239,4 +243,44 @@ fn parse_claims(text: &str) -> Result<usize, String> {
             .filter(|&n| n > 0)
             .ok_or_else(|| "a whole number from 1, or all, is needed".to_owned()),
     }
+}
+
+/// `certilux compare`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "The paper's table against Embree:\n  certilux compare builtin:{a,b,c,d,e,f} --markdown table.md --csv table.csv --json table.json\n\n\
+                  builtin:a to builtin:f are run at the epsilon, rays and passes of the paper's table unless told otherwise; \
+                  other scenes at the defaults of solve, three passes."
+)]
+pub struct CompareCommand {
+    /// OBJ files, or builtin:NAME.
+    #[arg(value_name = "SCENE", required = true)]
+    pub scenes: Vec<String>,
+    /// Techniques to put beside normal (unoccluded is always run: it shows what visibility costs).
+    #[arg(long, value_delimiter = ',', value_enum, default_values_t = [TechniqueArg::Visibility, TechniqueArg::Occlusion, TechniqueArg::Blockers])]
+    pub techniques: Vec<TechniqueArg>,
+    /// Repeats; times are their medians.
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+    pub repeat: u32,
+    /// The table for programs.
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+    /// All repeats, quartiles and settings.
+    #[arg(long, value_name = "FILE.json")]
+    pub json: Option<PathBuf>,
+    /// The table beside the paper's.
+    #[arg(long, value_name = "FILE.md")]
+    pub markdown: Option<PathBuf>,
+    /// Bring reflectances of 1 and more down to just below 1 instead of refusing the scene.
+    #[arg(long)]
+    pub clamp_reflectance: bool,
+    /// Which sides of a surface receive and reflect light.
+    #[arg(long, value_enum, default_value_t = SidesArg::Auto)]
+    pub sides: SidesArg,
+    /// Threads; 0 is one a processor. Counts do not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    pub threads: usize,
+    /// How to solve.
+    #[command(flatten)]
+    pub solve: SolveArgs,
 }

@@ -5,7 +5,7 @@ use super::error::CliError;
 use super::progress::Progress;
 use super::scene_source::load_scene;
 use super::session::Session;
-use super::solve_command::WORKER_STACK;
+use super::solve_command::with_threads;
 use crate::embree::DeviceConfig;
 use crate::experiment::{AuditConfig, AuditReport, Detection, DetectionConfig, audit, detection};
 use crate::output::write_json;
@@ -17,12 +17,9 @@ use std::time::Instant;
 /// Solves, audits, reports.
 pub fn run(session: &Session, command: &AuditCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(command.scene.threads)
-        .stack_size(WORKER_STACK)
-        .build()
-        .map_err(|e| CliError::System(format!("cannot start threads: {e}")))?;
-    pool.install(|| audit_and_report(session, command, &config))
+    with_threads(command.scene.threads, || {
+        audit_and_report(session, command, &config)
+    })
 }
 
 /// The report as a file.

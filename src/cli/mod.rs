@@ -3,6 +3,7 @@
 mod args;
 mod audit_command;
 mod clusters_command;
+mod compare_command;
 mod error;
 mod error_command;
 mod generate_command;

@@ -5,6 +5,7 @@ use super::reference_args::ReferenceCommand;
 use super::reference_progress::ReferenceProgress;
 use super::scene_source::load_scene;
 use super::session::Session;
+use super::solve_command::with_threads;
 use crate::embree::DeviceConfig;
 use crate::output::{ReferenceMeta, mean_radiosity, write_reference};
 use crate::reference::{ReferenceConfig, ReferenceError, TracedScene, measure};
@@ -21,11 +22,9 @@ pub fn run(session: &Session, command: &ReferenceCommand) -> Result<(), CliError
         seed: command.seed,
     };
     config.validate().map_err(ReferenceError::from)?;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(command.scene.threads)
-        .build()
-        .map_err(|e| CliError::System(format!("cannot start threads: {e}")))?;
-    pool.install(|| measure_and_write(session, command, &config))
+    with_threads(command.scene.threads, || {
+        measure_and_write(session, command, &config)
+    })
 }
 
 fn measure_and_write(

@@ -25,7 +25,7 @@ pub struct SceneArgs {
 /// Most threads: more than any machine of today runs at once, few enough that their stacks can be reserved.
 const MAX_THREADS: usize = 1024;
 
-fn parse_threads(text: &str) -> Result<usize, String> {
+pub fn parse_threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(n) if n <= MAX_THREADS => Ok(n),
         _ => Err(format!("a whole number from 0 to {MAX_THREADS} is needed")),
@@ -156,15 +156,15 @@ pub struct SolveArgs {
     /// How visibility is decided.
     #[arg(long, value_enum, default_value_t = TechniqueArg::Occlusion)]
     pub technique: TechniqueArg,
-    /// Refine until an exchange carries less than this fraction of the emitted power.
-    #[arg(long, value_name = "X", default_value_t = SolveConfig::default().epsilon, allow_negative_numbers = true)]
-    pub epsilon: f64,
+    /// Refine until an exchange carries less than this fraction of the emitted power [default: 1e-5].
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub epsilon: Option<f64>,
     /// Refine a receiver until an exchange leaves less than this fraction of the mean irradiance unresolved on it.
     #[arg(long, value_name = "X", default_value_t = SolveConfig::default().gradient, allow_negative_numbers = true)]
     pub gradient: f64,
-    /// Visibility samples of an exchange; multiples of 8 are cheapest.
-    #[arg(long, value_name = "N", default_value_t = SolveConfig::default().rays, allow_negative_numbers = true)]
-    pub rays: u32,
+    /// Visibility samples of an exchange; multiples of 8 are cheapest [default: 8].
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub rays: Option<u32>,
     /// Stop after N passes: 1 is direct light, 2 adds the first reflection.
     #[arg(long, value_name = "N", conflicts_with = "converge")]
     pub passes: Option<u32>,
@@ -203,9 +203,9 @@ impl SolveArgs {
         let default = SolveConfig::default();
         let config = SolveConfig {
             technique: self.technique.into(),
-            epsilon: self.epsilon,
+            epsilon: self.epsilon.unwrap_or(default.epsilon),
             gradient: self.gradient,
-            rays: self.rays,
+            rays: self.rays.unwrap_or(default.rays),
             stop: match (self.passes, self.converge) {
                 (Some(n), _) => Stop::Passes(n),
                 (None, Some(x)) => Stop::Converged(x),

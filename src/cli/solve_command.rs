@@ -19,17 +19,27 @@ use std::time::Instant;
 /// Solves a scene and writes the results.
 pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(command.scene.threads)
+    with_threads(command.scene.threads, || {
+        solve_and_write(session, command, &config)
+    })
+}
+
+/// Runs `work` on so many threads; 0 is one a processor.
+pub fn with_threads<R: Send>(
+    threads: usize,
+    work: impl FnOnce() -> Result<R, CliError> + Send,
+) -> Result<R, CliError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
         .stack_size(WORKER_STACK)
         .build()
-        .map_err(|e| CliError::System(format!("cannot start threads: {e}")))?;
-    pool.install(|| solve_and_write(session, command, &config))
+        .map_err(|e| CliError::System(format!("cannot start threads: {e}")))?
+        .install(work)
 }
 
 /// Stack of a worker: the walk recurses once a level of hierarchy and patches on both ends, about half
 /// a kilobyte each; a chain of clusters can be thousands deep.
-pub const WORKER_STACK: usize = 64 << 20;
+const WORKER_STACK: usize = 64 << 20;
 
 fn solve_and_write(
     session: &Session,

@@ -3,6 +3,7 @@
 mod audit;
 #[cfg(test)]
 mod audit_tests;
+mod comparison;
 mod continuous_surface;
 mod detection;
 mod dice;
@@ -12,6 +13,13 @@ mod polygon_boxes;
 mod ray_attack;
 mod shaft_replay;
 mod surface_chain;
+mod table_one;
 
 pub use audit::{AuditConfig, AuditError, AuditReport, Flaw, audit};
+pub use comparison::{
+    ComparisonConfig, ComparisonRow, ComparisonSummary, Times, compare, summarise,
+};
 pub use detection::{Detection, DetectionConfig, detection};
+pub use table_one::{
+    PaperRow, PaperShares, TableSettings, paper_row, paper_shares, table_settings,
+};

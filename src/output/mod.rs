@@ -4,6 +4,7 @@ mod atomic;
 mod auto_camera;
 mod camera;
 mod cluster_colours;
+mod comparison_table;
 mod error;
 mod exr_file;
 mod eye_places;
@@ -32,6 +33,7 @@ mod view_tests;
 pub use atomic::{FileWriter, write_atomically};
 pub use camera::{Camera, CameraError, PinHole};
 pub use cluster_colours::write_cluster_ply;
+pub use comparison_table::{comparison_csv, comparison_markdown};
 pub use error::OutputError;
 pub use exr_file::write_exr;
 pub use occluder_mesh::{OccluderSummary, write_occluders};
@@ -44,6 +46,6 @@ pub use reference_file::{
     ReferenceFace, ReferenceMeta, mean_radiosity, read_reference, write_reference,
 };
 pub use solved_mesh::{SolvedFace, SolvedMesh};
-pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json};
+pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json, write_text};
 pub use tonemap::ToneMap;
 pub use view::{Shading, View, ViewConfig};

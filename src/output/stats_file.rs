@@ -136,8 +136,20 @@ pub fn write_json(
     }
     let mut text = serde_json::to_vec_pretty(value).map_err(encoding)?;
     text.push(b'\n');
+    write_bytes(path, &text, interrupted)
+}
+
+/// Writes a text, whole or not at all.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub fn write_text(path: &Path, text: &str, interrupted: &AtomicBool) -> Result<(), OutputError> {
+    write_bytes(path, text.as_bytes(), interrupted)
+}
+
+fn write_bytes(path: &Path, bytes: &[u8], interrupted: &AtomicBool) -> Result<(), OutputError> {
     write_atomically(path, interrupted, |w| {
-        w.write_all(&text)
+        w.write_all(bytes)
             .map_err(|e| OutputError::io("write", path, e))
     })
 }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod command;
+mod comparisons;
 mod determinism;
 mod hostile;
 mod interruption;

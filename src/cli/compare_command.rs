@@ -1,0 +1,167 @@
+//! `certilux compare`: the paper's Table 1 against Embree.
+
+use super::args::CompareCommand;
+use super::error::CliError;
+use super::progress::Progress;
+use super::scene_source::load_scene;
+use super::session::Session;
+use super::solve_args::SceneArgs;
+use super::solve_command::with_threads;
+use crate::embree::DeviceConfig;
+use crate::experiment::{
+    ComparisonConfig, ComparisonRow, ComparisonSummary, TableSettings, compare, summarise,
+    table_settings,
+};
+use crate::output::{comparison_csv, comparison_markdown, write_json, write_text};
+use crate::solve::{PreparedScene, SolveConfig, Technique};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// Passes where neither the command line nor the table says.
+const PASSES: u32 = 3;
+
+/// What the JSON holds.
+#[derive(Serialize)]
+struct ComparisonFile<'a> {
+    format: u32,
+    certilux: &'a str,
+    embree: String,
+    command: &'a [String],
+    threads: usize,
+    repeats: u32,
+    scenes: Vec<SceneSettings>,
+    summary: &'a [ComparisonSummary],
+    rows: &'a [ComparisonRow],
+}
+
+/// How one scene was solved.
+#[derive(Serialize)]
+struct SceneSettings {
+    scene: String,
+    polygons: usize,
+    occluders: usize,
+    epsilon: f64,
+    rays: u32,
+    passes: u32,
+}
+
+/// Runs the comparison and writes what was asked for; the table goes to standard output.
+pub fn run(session: &Session, command: &CompareCommand) -> Result<(), CliError> {
+    let config = command.solve.config()?;
+    with_threads(command.threads, || compare_all(session, command, &config))
+}
+
+fn compare_all(
+    session: &Session,
+    command: &CompareCommand,
+    config: &SolveConfig,
+) -> Result<(), CliError> {
+    let techniques: Vec<Technique> = command.techniques.iter().map(|&t| t.into()).collect();
+    let mut rows = Vec::new();
+    let mut scenes = Vec::new();
+    let mut embree = String::new();
+    for name in &command.scenes {
+        let table = name.strip_prefix("builtin:").and_then(table_settings);
+        let scene_config = settings_for(command, config, table);
+        let reading = SceneArgs {
+            scene: name.clone(),
+            clamp_reflectance: command.clamp_reflectance,
+            sides: command.sides,
+            threads: command.threads,
+        };
+        let prepared = PreparedScene::new(
+            load_scene(&reading)?,
+            reading.sides_mode(),
+            config.seed,
+            &DeviceConfig::default(),
+        )?
+        .with_guarantees(Technique::Blockers, &command.solve.occluders.config());
+        let passes = command
+            .solve
+            .passes
+            .or(table.map(|t| t.passes))
+            .unwrap_or(PASSES);
+        let progress = Progress::new(
+            session.quiet,
+            Arc::clone(&session.interrupted),
+            &scene_config,
+        );
+        rows.extend(compare(
+            &prepared,
+            &scene_config,
+            &ComparisonConfig {
+                techniques: techniques.clone(),
+                passes,
+                repeat: command.repeat,
+            },
+            &progress,
+        )?);
+        progress.finish();
+        embree = prepared.embree_version.to_string();
+        scenes.push(SceneSettings {
+            scene: name.clone(),
+            polygons: prepared.scene.polygons.len(),
+            occluders: prepared
+                .guarantees
+                .as_ref()
+                .map_or(0, |g| g.occluders.len()),
+            epsilon: scene_config.epsilon,
+            rays: scene_config.rays,
+            passes,
+        });
+    }
+    let summary = summarise(&rows);
+    let about = format!(
+        "certilux {}, Embree {embree}, {} thread(s), {} repeat(s), {}.",
+        env!("CARGO_PKG_VERSION"),
+        rayon::current_num_threads(),
+        command.repeat,
+        scenes
+            .iter()
+            .map(|s| format!(
+                "{} at epsilon {:e} with {} rays",
+                s.scene, s.epsilon, s.rays
+            ))
+            .collect::<Vec<_>>()
+            .join(", ")
+    );
+    let markdown = comparison_markdown(&rows, &summary, &about);
+    if let Some(path) = &command.csv {
+        write_text(path, &comparison_csv(&rows), &session.interrupted)?;
+    }
+    if let Some(path) = &command.markdown {
+        write_text(path, &markdown, &session.interrupted)?;
+    }
+    if let Some(path) = &command.json {
+        let file = ComparisonFile {
+            format: 1,
+            certilux: env!("CARGO_PKG_VERSION"),
+            embree,
+            command: &session.words,
+            threads: rayon::current_num_threads(),
+            repeats: command.repeat,
+            scenes,
+            summary: &summary,
+            rows: &rows,
+        };
+        write_json(path, &file, &session.interrupted)?;
+    }
+    session.say(format_args!("{markdown}"));
+    Ok(())
+}
+
+/// The table's settings for its scenes, unless the command line says otherwise.
+fn settings_for(
+    command: &CompareCommand,
+    config: &SolveConfig,
+    table: Option<TableSettings>,
+) -> SolveConfig {
+    let Some(table) = table else {
+        return config.clone();
+    };
+    SolveConfig {
+        epsilon: command.solve.epsilon.unwrap_or(table.epsilon),
+        rays: command.solve.rays.unwrap_or(table.rays),
+        ..config.clone()
+    }
+}
