@@ -79,6 +79,9 @@ pub(super) fn trace_batch(
         let u = random.refine(u);
         let (facet, u) = subject.by_area.choose(u);
         let at = traced.point_on(subject.facets[facet], u, random.refine(v));
+        if traced.is_hidden(&at) {
+            continue;
+        }
         let ray = cosine_ray(&at, random.refine(s), random.refine(t), traced.tau);
         scratch.paths.push(Path {
             index,
@@ -143,6 +146,9 @@ fn light_by_point(
     v: f64,
 ) -> Option<([f64; 3], Option<Ray>)> {
     let light = traced.point_of_light(u, v)?;
+    if traced.is_hidden(&light) {
+        return None;
+    }
     let direction = light.position - path.at.position;
     let depth_from = path.at.normal.dot(direction);
     let depth_to = -light.normal.dot(direction);

@@ -143,15 +143,21 @@ impl TracedScene {
     }
 
     /// Where `ray` has landed, `hit` being its nearest hit: `None` on a side that does not exist, which
-    /// is opaque and black.
+    /// is opaque and black, or where a solid stands.
     ///
     /// Of polygons within tau of each other Embree may report any. The owner is the one that the
     /// scene's overlaps name: emitters first, then fronts, then the lower index.
     pub(super) fn landing(&self, ray: &Ray, hit: &Hit) -> Option<Vertex> {
         let own = self.side_met(hit.polygon, ray.direction);
-        let own_exists = self.facet_exists(own);
+        // By barycentric weights the point lies in its plane to the last bit; any layer's will do.
+        let [a, b, c] = self.scene.corners(hit.polygon);
+        let position = a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v;
+        let shows = |facet: Facet| {
+            self.facet_exists(facet) && !self.scene.contacts.is_hidden(facet, position)
+        };
+        let own_shows = shows(own);
         let owner = match &self.layers {
-            Some(layers) if layers.everywhere || !own_exists => {
+            Some(layers) if layers.everywhere || !own_shows => {
                 let depth = self.normals[hit.polygon.index()].dot(ray.direction).abs();
                 let reach = Ray {
                     tfar: hit.t + self.tau / depth.max(f32::MIN_POSITIVE),
@@ -164,22 +170,25 @@ impl TracedScene {
                         let dark = self.scene.emission(f) == [0.0; 3];
                         (dark, f.side, f.polygon)
                     };
-                    if self.facet_exists(met) && owner.is_none_or(|o| first(met) < first(o)) {
+                    if shows(met) && owner.is_none_or(|o| first(met) < first(o)) {
                         owner = Some(met);
                     }
                 });
-                owner.or(own_exists.then_some(own))?
+                owner.or(own_shows.then_some(own))?
             }
-            _ if own_exists => own,
+            _ if own_shows => own,
             _ => return None,
         };
-        // By barycentric weights the point lies in its plane to the last bit; any layer's will do.
-        let [a, b, c] = self.scene.corners(hit.polygon);
         Some(Vertex {
-            position: a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v,
+            position,
             normal: self.normal(owner),
             facet: owner,
         })
+    }
+
+    /// Whether a solid stands on a point, or another side owns it: there is no light.
+    pub(super) fn is_hidden(&self, at: &Vertex) -> bool {
+        self.scene.contacts.is_hidden(at.facet, at.position)
     }
 
     fn side_met(&self, polygon: PolygonId, direction: Vec3) -> Facet {
