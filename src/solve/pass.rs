@@ -517,22 +517,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         known: Known,
     ) -> Option<f32> {
         let sampled = self.sample_where_cheapest(source, &receiver.element, known);
-        if !(sampled.all_blocked || sampled.all_clear) {
-            let decision =
-                self.pass
-                    .oracle
-                    .decide_partial(&source.element, &receiver.element, greatest);
-            match decision {
-                Decision::SplitSource => {
-                    self.split_source(source, receiver, known.below());
-                    return None;
-                }
-                Decision::SplitReceiver => {
-                    self.split_receiver(source, receiver, known.below());
-                    return None;
-                }
-                _ => {}
-            }
+        let partly = !(sampled.all_blocked || sampled.all_clear);
+        let oracle = &self.pass.oracle;
+        if partly && oracle.refines_shadow(&source.element, &receiver.element, greatest) {
+            self.split_receiver(source, receiver, known.below());
+            return None;
         }
         let statistics = &mut self.outcome.statistics;
         // Where no sample carries light there was no ray, and nothing that stands in its way.
