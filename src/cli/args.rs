@@ -42,6 +42,8 @@ pub enum Command {
     Generate(GenerateCommand),
     /// Write the face clusters of a scene in colours, to look at (paper, Fig. 1).
     Clusters(ClustersCommand),
+    /// Run a suite of solves; record its counts and times, or check them against a record.
+    Bench(BenchCommand),
     /// Techniques side by side: the paper's Table 1.
     Compare(CompareCommand),
     /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
@@ -283,4 +285,58 @@ pub struct CompareCommand {
     /// How to solve.
     #[command(flatten)]
     pub solve: SolveArgs,
+}
+
+/// `certilux bench`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Counts have to be the same as in the baseline; times are compared as ratios to normal in the same run, within \
+                  what the repeats spread. Embree is told to use AVX2, since counts depend on its instruction set."
+)]
+pub struct BenchCommand {
+    /// Which suite: ci takes under a minute, paper is Table 1.
+    #[arg(long, value_enum, default_value_t = SuiteArg::Ci)]
+    pub suite: SuiteArg,
+    /// Write the run as a baseline.
+    #[arg(long, value_name = "FILE.json")]
+    pub record: Option<PathBuf>,
+    /// Compare with a baseline; exit code 1 on a regression.
+    #[arg(long, value_name = "FILE.json", conflicts_with = "record")]
+    pub check: Option<PathBuf>,
+    /// What to print: bmf is Bencher's metric format.
+    #[arg(long, value_enum, default_value_t = BenchFormat::Text)]
+    pub format: BenchFormat,
+    /// Threads; 0 is one a processor. Counts do not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    pub threads: usize,
+}
+
+/// `--suite`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum SuiteArg {
+    /// Small scenes, for every change.
+    Ci,
+    /// The paper's Table 1.
+    Paper,
+}
+
+impl SuiteArg {
+    /// The suite's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ci => "ci",
+            Self::Paper => "paper",
+        }
+    }
+}
+
+/// `--format`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum BenchFormat {
+    /// A line a row.
+    Text,
+    /// The baseline as JSON.
+    Json,
+    /// Bencher metric format.
+    Bmf,
 }

@@ -2,6 +2,7 @@
 
 mod args;
 mod audit_command;
+mod bench_command;
 mod clusters_command;
 mod compare_command;
 mod error;

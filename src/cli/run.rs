@@ -4,8 +4,8 @@ use super::args::{Cli, Command};
 use super::error::CliError;
 use super::session::Session;
 use super::{
-    audit_command, clusters_command, compare_command, error_command, generate_command, interrupt,
-    occluders_command, reference_command, solve_command, view_command,
+    audit_command, bench_command, clusters_command, compare_command, error_command,
+    generate_command, interrupt, occluders_command, reference_command, solve_command, view_command,
 };
 use clap::Parser;
 use std::ffi::OsString;
@@ -29,6 +29,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Solve(command) => solve_command::run(&session, &command),
         Command::View(command) => view_command::run(&session, &command),
         Command::Clusters(command) => clusters_command::run(&session, &command),
+        Command::Bench(command) => bench_command::run(&session, &command),
         Command::Compare(command) => compare_command::run(&session, &command),
         Command::Occluders(command) => occluders_command::run(&session, &command),
         Command::Reference(command) => reference_command::run(&session, &command),

@@ -35,7 +35,7 @@ pub struct Times {
 
 impl Times {
     /// Order statistics of at least one time.
-    fn new(all: Vec<f64>) -> Self {
+    pub fn new(all: Vec<f64>) -> Self {
         let mut sorted = all.clone();
         sorted.sort_unstable_by(f64::total_cmp);
         let quantile = |share: f64| {

@@ -11,6 +11,7 @@ mod element_points;
 mod flat_polygon;
 mod polygon_boxes;
 mod ray_attack;
+mod regression;
 mod shaft_replay;
 mod surface_chain;
 mod table_one;
@@ -20,6 +21,9 @@ pub use comparison::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, Times, compare, summarise,
 };
 pub use detection::{Detection, DetectionConfig, detection};
+pub use regression::{
+    Baseline, BaselineCounts, BaselineKey, BaselineRow, SuiteCase, regressions, suite,
+};
 pub use table_one::{
     PaperRow, PaperShares, TableSettings, paper_row, paper_shares, table_settings,
 };

@@ -117,6 +117,8 @@ pub struct Space<'a> {
     pub scene: &'a Scene,
     /// Its hierarchy.
     pub hierarchy: &'a Hierarchy,
+    /// The element of each node.
+    pub elements: &'a [Element],
     /// Unit normal of each facet.
     pub normals: &'a [Vec3],
     /// Sum of the areas before each facet, and of all.
@@ -176,8 +178,8 @@ fn wide_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3
 
 fn cluster_vector(space: &Space, id: NodeId, point: Vec3, normal: Option<Vec3>) -> Vec3 {
     let Some(children) = space.hierarchy.children(id) else {
-        let leaf = Element::of_node(space.scene, space.hierarchy, id);
-        return element_vector(space, &leaf, point, normal, true);
+        let leaf = &space.elements[id.index()];
+        return element_vector(space, leaf, point, normal, true);
     };
     let node = space.hierarchy.node(id);
     let shape = space.hierarchy.shape(id);

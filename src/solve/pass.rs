@@ -39,6 +39,8 @@ pub struct SolveContext<'a> {
     pub embree: &'a CommittedScene,
     /// What the guaranteed tests stand on, where the technique asks for them.
     pub guarantees: Option<&'a Guarantees>,
+    /// The element of each node.
+    pub elements: &'a [Element],
     /// Unit normal of each facet.
     pub normals: &'a [Vec3],
     /// Sum of the areas of the facets before each facet, and of all at the end.
@@ -234,11 +236,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     fn run(mut self) -> PassOutcome {
         let source = self.source_of_node(Hierarchy::ROOT);
         let receiver = Receiver {
-            element: Element::of_node(
-                self.pass.context.scene,
-                self.pass.context.hierarchy,
-                self.gatherer.root,
-            ),
+            element: self.pass.context.elements[self.gatherer.root.index()],
             local: 0,
         };
         self.walk(&source, &receiver, Known::NOTHING);
@@ -258,7 +256,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             (0, 0)
         };
         Source {
-            element: Element::of_node(context.scene, context.hierarchy, id),
+            element: context.elements[id.index()],
             owner,
             slot,
         }
@@ -440,7 +438,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             let locals = local_children(context.hierarchy, children[0], receiver.local as usize);
             for (child, local) in children.into_iter().zip(locals) {
                 let child = Receiver {
-                    element: Element::of_node(context.scene, context.hierarchy, child),
+                    element: context.elements[child.index()],
                     local: local as u32,
                 };
                 self.walk(source, &child, known);
@@ -456,6 +454,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             &Space {
                 scene: context.scene,
                 hierarchy: context.hierarchy,
+                elements: context.elements,
                 normals: context.normals,
                 area_before: context.area_before,
                 tau: context.tau,

@@ -3,6 +3,7 @@
 use super::claim_check::ClaimCheck;
 use super::claims::{Claim, ClaimSample};
 use super::config::{Normalise, SolveConfig, Stop};
+use super::element::Element;
 use super::error::SolveError;
 use super::guarantees::Guarantees;
 use super::ledger::{Escape, RadiatingPatch, absorbed_power, escape};
@@ -15,7 +16,7 @@ use super::solution::{PatchPath, Solution, SolvedPatch};
 use super::statistics::{PassStatistics, PowerLedger};
 use crate::cluster::Hierarchy;
 use crate::embree::CommittedScene;
-use crate::math::FacetId;
+use crate::math::{FacetId, NodeId};
 use crate::scene::Scene;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -144,6 +145,8 @@ pub struct Solver<'a, const C: usize> {
     config: &'a SolveConfig,
     observer: &'a dyn Observer,
     table: FacetTable<C>,
+    /// The element of each node: the walk meets each of them many times.
+    elements: Vec<Element>,
     /// Emitted power of each channel, in units of the table's radiosity times normalised area.
     emitted: Light<C>,
     light: Radiosity<C>,
@@ -178,6 +181,9 @@ impl<'a, const C: usize> Solver<'a, C> {
             guarantees: guarantees.as_ref(),
             config,
             observer,
+            elements: (0..hierarchy.nodes.len())
+                .map(|n| Element::of_node(scene, hierarchy, NodeId::new(n)))
+                .collect(),
             table,
             emitted,
             light,
@@ -269,6 +275,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             hierarchy: self.hierarchy,
             embree: self.embree,
             guarantees: self.guarantees,
+            elements: &self.elements,
             normals: &self.table.normals,
             area_before: &self.table.area_before,
             polygon_area: self.table.polygon_area,

@@ -70,3 +70,17 @@ fn a_scene_that_is_not_there_is_named() {
     run.ends_with(2, "nowhere");
     assert!(run.stderr.contains("nowhere"), "{}", run.stderr);
 }
+
+#[test]
+fn a_baseline_that_is_none_is_refused_before_the_suite_runs() {
+    let folder = Folder::new();
+    for (name, text) in [("empty.json", ""), ("other.json", "{\"format\": 1}")] {
+        fs::write(folder.path(name), text).unwrap();
+        let run = folder.line(&format!("bench --check {name}"));
+        run.ends_with(2, name);
+        assert!(run.stderr.contains(name), "{}", run.stderr);
+    }
+    folder
+        .line("bench --check missing.json")
+        .ends_with(2, "missing");
+}

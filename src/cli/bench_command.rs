@@ -1,0 +1,160 @@
+//! `certilux bench`: records a baseline of a suite, or checks against one.
+
+use super::args::{BenchCommand, BenchFormat, SuiteArg};
+use super::error::CliError;
+use super::scene_source::read_scene;
+use super::session::{Session, print_line};
+use super::solve_command::with_threads;
+use crate::embree::DeviceConfig;
+use crate::experiment::{
+    Baseline, BaselineKey, BaselineRow, ComparisonConfig, SuiteCase, compare, regressions, suite,
+};
+use crate::occluder::OccluderConfig;
+use crate::output::write_json;
+use crate::scene::{LoadConfig, SidesMode};
+use crate::solve::{PreparedScene, Silent, SolveConfig, Technique};
+use serde_json::json;
+use std::path::Path;
+
+/// Instruction set of every run: bits, and so counts, depend on it.
+const ISA: &str = "avx2";
+
+/// Runs the suite, then records or checks.
+pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
+    // A baseline that cannot be read is better known before the suite has run.
+    let baseline = command.check.as_deref().map(read_baseline).transpose()?;
+    let now = with_threads(command.threads, || run_suite(session, command.suite))?;
+    report(command.format, &now);
+    if let Some(path) = &command.record {
+        write_json(path, &now, &session.interrupted)?;
+        session.say(format_args!("wrote {}", path.display()));
+    }
+    let Some(baseline) = baseline else {
+        return Ok(());
+    };
+    let found = regressions(&baseline, &now);
+    let key = match baseline.key == now.key {
+        true => "the baseline's key: counts exactly".to_owned(),
+        false => format!(
+            "a foreign key ({:?} in the baseline, {:?} here): counts within 0.1 %",
+            baseline.key, now.key
+        ),
+    };
+    if found.is_empty() {
+        session.say(format_args!("no regression; checked under {key}"));
+        return Ok(());
+    }
+    Err(CliError::CheckFailed(format!(
+        "{} regressions, checked under {key}:\n  {}",
+        found.len(),
+        found.join("\n  ")
+    )))
+}
+
+fn read_baseline(path: &Path) -> Result<Baseline, CliError> {
+    let fail = |reason: String| {
+        CliError::Argument(format!(
+            "{}: not a baseline of this program: {reason}",
+            path.display()
+        ))
+    };
+    let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
+    serde_json::from_slice(&bytes).map_err(|e| fail(e.to_string()))
+}
+
+fn run_suite(session: &Session, which: SuiteArg) -> Result<Baseline, CliError> {
+    let name = which.name();
+    let cases = suite(name).unwrap_or_default();
+    let mut now = Baseline {
+        format: 1,
+        suite: name.to_owned(),
+        key: BaselineKey {
+            embree: String::new(),
+            isa: ISA.to_owned(),
+            arch: std::env::consts::ARCH.to_owned(),
+        },
+        occluders: Vec::new(),
+        rows: Vec::new(),
+    };
+    for case in cases {
+        if !session.quiet {
+            eprintln!("certilux: {}", case.scene);
+        }
+        run_case(case, &mut now)?;
+        if session
+            .interrupted
+            .load(std::sync::atomic::Ordering::Relaxed)
+        {
+            return Err(CliError::Interrupted);
+        }
+    }
+    Ok(now)
+}
+
+fn run_case(case: &SuiteCase, now: &mut Baseline) -> Result<(), CliError> {
+    let config = SolveConfig {
+        epsilon: case.epsilon,
+        rays: case.rays,
+        ..SolveConfig::default()
+    };
+    let scene = read_scene(&format!("builtin:{}", case.scene), &LoadConfig::default())?;
+    let device = DeviceConfig {
+        isa: Some(ISA),
+        ..DeviceConfig::default()
+    };
+    let prepared = PreparedScene::new(scene, SidesMode::Auto, config.seed, &device)?
+        .with_guarantees(Technique::Blockers, &OccluderConfig::default());
+    let rows = compare(
+        &prepared,
+        &config,
+        &ComparisonConfig {
+            techniques: vec![Technique::Occlusion, Technique::Blockers],
+            passes: case.passes,
+            repeat: case.repeat,
+        },
+        &Silent,
+    )?;
+    now.key.embree = prepared.embree_version.to_string();
+    let occluders = prepared.guarantees.as_ref().map(|g| g.occluders.len());
+    now.occluders.push(occluders.unwrap_or_default());
+    now.rows.extend(BaselineRow::of_comparison(&rows));
+    Ok(())
+}
+
+/// The run on standard output.
+fn report(format: BenchFormat, now: &Baseline) {
+    match format {
+        BenchFormat::Text => {
+            for row in &now.rows {
+                print_line(format_args!(
+                    "{:28} pass {} {:11} {:10} exchanges {:11} rays {:9} shafts  {:8.4} s  {:.3} of normal (+- {:.3})",
+                    row.scene,
+                    row.pass,
+                    row.technique,
+                    row.counts.exchanges,
+                    row.counts.rays,
+                    row.counts.shafts,
+                    row.seconds,
+                    row.ratio,
+                    row.ratio * row.spread
+                ));
+            }
+        }
+        BenchFormat::Json => print_line(format_args!("{}", json!(now))),
+        BenchFormat::Bmf => {
+            let metrics: serde_json::Map<String, serde_json::Value> = (now.rows.iter())
+                .map(|row| {
+                    let name = format!("{}/pass{}/{}", row.scene, row.pass, row.technique);
+                    let value = json!({
+                        "latency": { "value": row.seconds * 1.0e9 },
+                        "ratio-to-normal": { "value": row.ratio },
+                        "rays": { "value": row.counts.rays },
+                        "exchanges": { "value": row.counts.exchanges },
+                    });
+                    (name, value)
+                })
+                .collect();
+            print_line(format_args!("{}", json!(metrics)));
+        }
+    }
+}
