@@ -185,7 +185,7 @@ impl<'a> Prover<'a> {
             &b,
             &above[next - 1].survivors,
             &mut below[0].survivors,
-            self.schedule.limits(queries),
+            self.schedule.limits(queries, expected),
             &mut self.visibility,
         );
         below[0].is_short = None;

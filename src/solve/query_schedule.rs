@@ -96,6 +96,9 @@ const SIZES: usize = 16;
 /// Cost of eight probe rays and of a query, in exchanges' rays.
 const PROBE_COST: f32 = 1.0;
 const QUERY_COST: f32 = 1.5;
+/// Nodes and leaves that any walk, and no walk but the paper's, may test.
+const LEAST_NODES: f32 = 8.0;
+const MOST_NODES: f32 = 1024.0;
 /// Expected exchanges from which a pair is worth a look.
 const LEAST_EXPECTED: f32 = 8.0;
 /// Least factor between the expected exchanges of nested pairs that are both looked at.
@@ -162,14 +165,20 @@ impl QuerySchedule {
         }
     }
 
-    /// How far a walk may go.
-    pub fn limits(&self, queries: Queries) -> WalkLimits {
+    /// How far a walk may go: it may cost what it can save, about the rays of one exchange a node. Walks at a
+    /// fixed stride are the paper's and go to their ends.
+    pub fn limits(&self, queries: Queries, expected: f32) -> WalkLimits {
+        let nodes = expected.clamp(LEAST_NODES, MOST_NODES) as u32;
         match queries {
+            Queries::Both => WalkLimits::default(),
             Queries::Shorten => WalkLimits {
                 blocking_leaves: 4,
-                nodes: 64,
+                nodes: nodes.min(64),
             },
-            _ => WalkLimits::default(),
+            _ => WalkLimits {
+                nodes,
+                ..WalkLimits::default()
+            },
         }
     }
 
