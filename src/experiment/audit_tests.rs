@@ -7,7 +7,7 @@ use crate::embree::DeviceConfig;
 use crate::occluder::{Occluder, OccluderConfig, OccluderSet, SlabRectangle};
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, SidesMode, load_text};
-use crate::solve::{Guarantees, PreparedScene, Silent, SolveConfig, Stop, Technique};
+use crate::solve::{Guarantees, PreparedScene, Silent, SolveConfig, Stop, Stride, Technique};
 use crate::visibility::Faults;
 use glam::{Vec2, Vec3};
 use std::fmt::Write;
@@ -68,6 +68,8 @@ fn audit_of(prepared: &PreparedScene) -> AuditReport {
     let solve = SolveConfig {
         epsilon: 1.0e-4,
         stop: Stop::Passes(1),
+        // Asked often, whether it pays or not: many claims.
+        stride: Stride::Every(SolveConfig::PAPER_STRIDE),
         ..SolveConfig::default()
     };
     let config = AuditConfig {

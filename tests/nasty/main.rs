@@ -8,7 +8,7 @@ use certilux::embree::DeviceConfig;
 use certilux::experiment::{AuditConfig, AuditReport, audit};
 use certilux::occluder::OccluderConfig;
 use certilux::scene::{LoadConfig, SidesMode, load_text};
-use certilux::solve::{PreparedScene, Silent, SolveConfig, Stop, Technique};
+use certilux::solve::{PreparedScene, Silent, SolveConfig, Stop, Stride, Technique};
 use scene::{MTL, nasty_scene};
 
 fn audit_of(seed: u64) -> AuditReport {
@@ -20,6 +20,11 @@ fn audit_of(seed: u64) -> AuditReport {
         technique: Technique::Occlusion,
         epsilon: 1.0e-4,
         stop: Stop::Passes(2),
+        stride: match seed % 3 {
+            0 => Stride::Auto,
+            1 => Stride::Every(SolveConfig::PAPER_STRIDE),
+            _ => Stride::Every(1),
+        },
         seed,
         ..SolveConfig::default()
     };
