@@ -17,7 +17,7 @@
 
 use super::stored_polygon::{PlaneKnown, StoredPolygon};
 use super::tolerance::Tolerance;
-use super::wide_corners::{Part, WideCorners};
+use super::wide_corners::{Points, WideCorners};
 use glam::DVec3;
 
 /// False only if `polygon` surely blocks no segment between `a` and `b`, both grown by
@@ -56,11 +56,22 @@ pub(super) fn may_block(
         if !apart {
             continue;
         }
-        let from = Part::beyond(a, &over_a, -side, depth);
-        let to = Part::beyond(b, &over_b, side, depth);
+        let (mut room_a, mut room_b) = (None, None);
+        let from = a.beyond(&over_a, -side, depth, &mut room_a);
+        let to = b.beyond(&over_b, side, depth, &mut room_b);
+        let (from_centre, to_centre) = (a.centre - v[0], b.centre - v[0]);
+        let crosses =
+            -side * normal.dot(from_centre) > depth && side * normal.dot(to_centre) > depth;
         let mut missed = false;
         for i in 0..3 {
             let edge = v[(i + 1) % 3] - v[i];
+            // Where the segment between the centres passes inside the edge moved inwards, not all
+            // pass outside. Moving it changes the number by less than this.
+            let (p, q) = (a.centre - v[i], b.centre - v[i]);
+            let moved = pull * edge.abs().element_sum() * (q - p).abs().element_sum();
+            if crosses && side * edge.cross(p).dot(q) > moved {
+                continue;
+            }
             let length = edge.length();
             // The edge moved inwards within the plane.
             let start = v[i] + normal.cross(edge) * (pull / length);
@@ -125,8 +136,8 @@ fn all_pass_outside(
     start: DVec3,
     edge: DVec3,
     growth: f64,
-    from: &Part,
-    to: &Part,
+    from: &Points,
+    to: &Points,
     nesting: f64,
 ) -> bool {
     let mut first = 0;

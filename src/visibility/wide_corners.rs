@@ -69,39 +69,77 @@ impl WideCorners {
     }
 }
 
-/// Points whose hull is an element, or the part of it beyond a plane.
-#[derive(Clone, Debug)]
-pub(super) struct Part {
-    pub x: [f64; MOST_POINTS],
-    pub y: [f64; MOST_POINTS],
-    pub z: [f64; MOST_POINTS],
+/// Points whose hull is an element or a part of it; lanes beyond the count, up to the next multiple
+/// of eight, repeat one of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Points<'a> {
+    pub x: &'a [f64],
+    pub y: &'a [f64],
+    pub z: &'a [f64],
     pub count: usize,
 }
 
-impl Part {
-    /// The part of the element with `side * height > depth`, as the corners beyond and the cuts
-    /// between any corner beyond and any that is not (more than the hull's edges, the same hull).
-    /// Lanes up to the next multiple of eight repeat a point.
+impl Points<'_> {
     #[inline(always)]
-    pub(super) fn beyond(corners: &WideCorners, heights: &Heights, side: f64, depth: f64) -> Self {
-        let mut part = Self {
-            x: [0.0; MOST_POINTS],
-            y: [0.0; MOST_POINTS],
-            z: [0.0; MOST_POINTS],
-            count: 0,
-        };
+    pub(super) fn point(&self, l: usize) -> DVec3 {
+        DVec3::new(self.x[l], self.y[l], self.z[l])
+    }
+}
+
+/// Room for the points of a part.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    x: [f64; MOST_POINTS],
+    y: [f64; MOST_POINTS],
+    z: [f64; MOST_POINTS],
+    count: usize,
+}
+
+impl WideCorners {
+    /// The part of the element with `side * height > depth`; `room` holds it where that is not all
+    /// of the element.
+    #[inline(always)]
+    pub(super) fn beyond<'a>(
+        &'a self,
+        heights: &Heights,
+        side: f64,
+        depth: f64,
+        room: &'a mut Option<Part>,
+    ) -> Points<'a> {
         let lowest = if side > 0.0 {
             heights.least
         } else {
             -heights.greatest
         };
         if lowest > depth {
-            part.x[..8].copy_from_slice(&corners.x);
-            part.y[..8].copy_from_slice(&corners.y);
-            part.z[..8].copy_from_slice(&corners.z);
-            part.count = corners.count;
-            return part;
+            return Points {
+                x: &self.x,
+                y: &self.y,
+                z: &self.z,
+                count: self.count,
+            };
         }
+        let part = room.insert(Part::cut(self, heights, side, depth));
+        Points {
+            x: &part.x,
+            y: &part.y,
+            z: &part.z,
+            count: part.count,
+        }
+    }
+}
+
+impl Part {
+    /// The corners beyond the plane and the cuts between any corner beyond and any that is not (more
+    /// than the hull's edges, the same hull).
+    #[inline(always)]
+    fn cut(corners: &WideCorners, heights: &Heights, side: f64, depth: f64) -> Self {
+        let mut part = Self {
+            x: [0.0; MOST_POINTS],
+            y: [0.0; MOST_POINTS],
+            z: [0.0; MOST_POINTS],
+            count: 0,
+        };
         for i in 0..corners.count {
             let (p, h) = (corners.point(i), side * heights.of[i]);
             if h <= depth {
@@ -115,16 +153,11 @@ impl Part {
                 }
             }
         }
-        let first = part.point(0);
+        let first = DVec3::new(part.x[0], part.y[0], part.z[0]);
         for l in part.count..part.count.next_multiple_of(8).min(MOST_POINTS) {
             part.set(l, first);
         }
         part
-    }
-
-    #[inline(always)]
-    pub(super) fn point(&self, l: usize) -> DVec3 {
-        DVec3::new(self.x[l], self.y[l], self.z[l])
     }
 
     #[inline(always)]
