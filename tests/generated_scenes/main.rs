@@ -1,6 +1,7 @@
 //! The built-in scenes are what they are said to be: the text is read back and judged.
 
 mod contact;
+mod frozen;
 mod neighbours;
 mod reader;
 

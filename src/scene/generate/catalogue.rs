@@ -81,12 +81,12 @@ static CATALOGUE: &[CatalogueEntry] = &[
     ),
     fixed(
         "d",
-        "a living room with few pieces, little occlusion",
+        "a living room with few pieces and two screens, little occlusion",
         living_room,
     ),
     fixed(
         "e",
-        "a flat of eight rooms along a hall, lit by two windows",
+        "a flat of eight rooms along a hall, lit from a veranda at its end",
         flat,
     ),
     fixed("f", "an exhibition hall of few large polygons", gallery),

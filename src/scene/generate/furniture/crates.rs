@@ -91,7 +91,7 @@ pub fn rack(size: RackSize, steel: Material, boxes: &[Material], dice: &mut Dice
             // Two cartons a bay, 2 cm clear of the uprights and of each other.
             let room = (BAY - POST) / 2.0 - 0.03;
             for side in [-0.5, 0.5] {
-                let height = size.pitch * dice.between(0.35, 0.80) - 0.1;
+                let height = size.pitch * dice.between(0.50, 0.86) - 0.1;
                 let width = room * dice.between(0.8, 1.0);
                 let carton = [width, size.depth * 0.9, height];
                 let wood = boxes[dice.pick(boxes.len())];

@@ -1,7 +1,8 @@
-//! Scene E: a flat of eight rooms along a hall, lit from two windows at its western end.
+//! Scene E: a flat of eight rooms along a hall. Its only windows are those of a narrow veranda at
+//! its western end, so daylight reaches the rooms through the hall, round corners.
 
 use super::super::blocks::Blocks;
-use super::super::furniture::{bench, lantern};
+use super::super::furniture::{bench, cupboard, lantern, plant};
 use super::super::material::Material;
 use super::super::mesh::Mesh;
 use super::super::palette::*;
@@ -25,43 +26,61 @@ const DOOR_HEIGHT: f64 = 2.1;
 /// The arch between kitchen and living room: its ends' distances from the front walls, height.
 const ARCH: [f64; 2] = [1.7, 3.3];
 const ARCH_HEIGHT: f64 = 2.2;
-/// The windows in the western walls: their ends' distances from the rooms' southern walls, sill and
-/// head, how deep they are set, in metres, and their light.
-const WINDOW: [f64; 2] = [1.3, 3.1];
+/// How far the veranda reaches out from the rooms' western walls in metres.
+const VERANDA_DEPTH: f64 = 1.1;
+/// Its windows: their southern ends' y, width, sill and head, how deep they are set, in metres, and
+/// their light.
+const WINDOWS: [f64; 4] = [-3.6, -1.2, 2.2, 4.6];
+const WINDOW_WIDTH: f64 = 1.0;
 const SILL: [f64; 2] = [0.95, 2.25];
 const WINDOW_DEPTH: f64 = 0.15;
 const DAYLIGHT: Material = Material::lamp("daylight", [16.0, 18.0, 22.0]);
 /// Largest side of a mesh cell of the shell in metres.
-const SHELL_CELL: f64 = 0.69;
+const SHELL_CELL: f64 = 0.86;
 const DETAIL: Detail = Detail {
     cell: 0.62,
     segments: 8,
     books: 3,
 };
-/// Which lamps are on, southern rooms first.
-const LIT: [bool; 8] = [false; 8];
-/// The lanterns' width and height, the height of their undersides, largest cell, in metres, and
-/// their light.
+/// The lanterns, all off: width and height, the height of their undersides, largest cell, in metres.
 const LAMP: [f64; 2] = [0.4, 0.5];
 const LAMP_HEIGHT: f64 = 1.9;
 const LAMP_CELL: f64 = 0.5;
-const LAMP_LIGHT: Material = Material::lamp("lamp_on", [34.0, 29.0, 22.0]);
 const LAMP_DARK: Material = Material::matte("lamp_off", [0.70, 0.70, 0.68]);
-/// What is in the rooms, in the order of [`LIT`], and the walls' paint.
+/// What is in the rooms, southern ones first, each row from the west, and the walls' paint.
 const ROOMS: [(Interior, Material); 8] = [
-    (Interior::Bedroom, DUSTY_BLUE),
+    (Interior::Library, OCHRE),
     (Interior::Kitchen, COOL_WHITE),
     (Interior::Sitting, WARM_WHITE),
-    (Interior::Library, OCHRE),
-    (Interior::Bathroom, COOL_WHITE),
+    (Interior::Bedroom, DUSTY_BLUE),
     (Interior::Study, SAGE),
-    (Interior::Bedroom, TERRACOTTA),
     (Interior::Study, DUSTY_BLUE),
+    (Interior::Bathroom, COOL_WHITE),
+    (Interior::Bedroom, TERRACOTTA),
 ];
 /// Tag of the air in the hall and the doorways.
 const HALL_TAG: u16 = 10;
-/// Tag of the air in the windows.
+/// Tags of the air in the windows and on the veranda.
 const WINDOW_TAG: u16 = 11;
+const VERANDA_TAG: u16 = 12;
+/// Presses in the hall: width, depth, height, largest cell, and their middles' distances from the
+/// hall's western end along its southern and its northern wall, in metres.
+const PRESS: [f64; 3] = [1.8, 0.4, 2.2];
+const PRESS_CELL: f64 = 1.2;
+const PRESSES: [(Wall, f64); 5] = [
+    (Wall::South, 3.0),
+    (Wall::South, 10.4),
+    (Wall::North, 4.2),
+    (Wall::North, 9.0),
+    (Wall::North, 13.4),
+];
+/// The veranda's plants, one before each window: height, distance of their middles from the western
+/// wall, and from the southern one, in metres.
+const PLANT: f64 = 1.5;
+const PLANT_OFF: f64 = 0.42;
+const PLANTS: [f64; 4] = [1.5, 4.0, 7.2, 9.6];
+/// Its benches' middles from the southern wall in metres.
+const BENCHES: [f64; 2] = [2.75, 8.4];
 
 /// Builds the flat.
 pub fn flat() -> Mesh {
@@ -69,14 +88,13 @@ pub fn flat() -> Mesh {
     mesh.object("flat", &shell());
     for (number, &(interior, _)) in ROOMS.iter().enumerate() {
         let frame = room(number).seen_from(front(number));
-        let light = if LIT[number] { LAMP_LIGHT } else { LAMP_DARK };
-        let lamp = lantern(LAMP[0], LAMP[1], LAMP_CELL, STEEL, light);
+        let lamp = lantern(LAMP[0], LAMP[1], LAMP_CELL, STEEL, LAMP_DARK);
         let at = frame.hung(frame.width / 2.0, frame.depth / 2.0, LAMP_HEIGHT);
         mesh.place("lamp", &lamp, at);
         furnish(&mut mesh, interior, &frame, DETAIL, 40 + number as u64);
     }
-    let seat = bench(1.4, DETAIL.cell, OAK);
-    mesh.place("bench", &seat, hall().against(Wall::South, 7.2, 0.44));
+    furnish_hall(&mut mesh);
+    furnish_veranda(&mut mesh);
     mesh
 }
 
@@ -96,6 +114,38 @@ fn front(number: usize) -> Wall {
         Wall::North
     } else {
         Wall::South
+    }
+}
+
+/// Presses and a bench between the doors.
+fn furnish_hall(mesh: &mut Mesh) {
+    let press = cupboard(PRESS, 2, PRESS_CELL, OAK, PINE);
+    for (wall, along) in PRESSES {
+        mesh.place("press", &press, hall().against(wall, along, PRESS[1]));
+    }
+    let seat = bench(1.4, DETAIL.cell, OAK);
+    mesh.place("bench", &seat, hall().against(Wall::South, 7.2, 0.44));
+}
+
+fn furnish_veranda(mesh: &mut Mesh) {
+    let veranda = veranda();
+    for along in PLANTS {
+        let pot = plant(PLANT, 3, DETAIL.segments, CLAY, LEAF);
+        mesh.place("plant", &pot, veranda.inside(PLANT_OFF, along, 0.0));
+    }
+    let seat = bench(1.4, DETAIL.cell, OAK);
+    for along in BENCHES {
+        mesh.place("bench", &seat, veranda.against(Wall::East, along, 0.44));
+    }
+}
+
+/// West of the rooms, as wide as the house.
+fn veranda() -> Room {
+    Room {
+        west: -WALL - VERANDA_DEPTH,
+        south: -WALL - ROOM_DEPTH,
+        east: -WALL,
+        north: HALL_WIDTH + WALL + ROOM_DEPTH,
     }
 }
 
@@ -121,11 +171,18 @@ fn shell() -> Mesh {
             HALL_TAG,
         );
     }
-    for number in [0, A_ROW] {
-        let room = room(number);
+    let veranda = veranda();
+    veranda.carve(&mut space, HEIGHT, VERANDA_TAG);
+    let half = DOOR_WIDTH / 2.0;
+    space.carve(
+        [veranda.east, HALL_WIDTH / 2.0 - half, 0.0],
+        [0.0, HALL_WIDTH / 2.0 + half, DOOR_HEIGHT],
+        HALL_TAG,
+    );
+    for from in WINDOWS {
         space.carve(
-            [room.west - WINDOW_DEPTH, room.south + WINDOW[0], SILL[0]],
-            [room.west, room.south + WINDOW[1], SILL[1]],
+            [veranda.west - WINDOW_DEPTH, from, SILL[0]],
+            [veranda.west, from + WINDOW_WIDTH, SILL[1]],
             WINDOW_TAG,
         );
     }
@@ -141,6 +198,7 @@ fn shell() -> Mesh {
             return if is_pane { DAYLIGHT } else { CEILING_WHITE };
         }
         let (floor, walls) = match ROOMS.get(usize::from(face.air)) {
+            None if face.air == VERANDA_TAG => (STONE_FLOOR, WARM_WHITE),
             None => (PARQUET, OCHRE),
             Some((Interior::Bathroom | Interior::Kitchen, paint)) => (STONE_FLOOR, *paint),
             Some((_, paint)) => (PARQUET, *paint),

@@ -1,9 +1,9 @@
-//! Scene D: one living room with few pieces: nearly everything sees everything.
+//! Scene D: one living room with few pieces, two screens among them: most things see most others.
 
 use super::super::blocks::Blocks;
 use super::super::dice::Dice;
 use super::super::furniture::{
-    ShelfSize, bench, lamp_panel, panel_chair, plant, shelf, sofa, table,
+    ShelfSize, bench, lamp_panel, panel_chair, plant, screen, shelf, sofa, table,
 };
 use super::super::material::Material;
 use super::super::mesh::Mesh;
@@ -23,11 +23,12 @@ const WINDOW: [f64; 2] = [2.0, 4.4];
 const SILL: [f64; 2] = [0.9, 2.2];
 const WINDOW_DEPTH: f64 = 0.3;
 /// Largest sides of mesh cells of the shell and the furniture in metres.
-const SHELL_CELL: f64 = 1.25;
-const FURNITURE_CELL: f64 = 2.0;
-/// The lamp panel's sides and largest cell in metres, and its light.
+const SHELL_CELL: f64 = 1.7;
+const FURNITURE_CELL: f64 = 2.4;
+/// The lamp panel over the seats: its middle, sides and largest cell in metres, and its light.
+const LAMP_AT: [f64; 2] = [2.1, 2.4];
 const LAMP: [f64; 2] = [1.2, 1.2];
-const LAMP_CELL: f64 = 0.4;
+const LAMP_CELL: f64 = 0.6;
 const LAMP_LIGHT: Material = Material::lamp("ceiling_lamp", [30.0, 26.0, 20.0]);
 
 /// Builds the room.
@@ -52,8 +53,11 @@ pub fn living_room() -> Mesh {
     let mut mesh = Mesh::default();
     mesh.object("room", &shell);
     let lamp = lamp_panel(LAMP[0], LAMP[1], LAMP_CELL, STEEL, LAMP_LIGHT);
-    let (x, y) = (ROOM.width() / 2.0, ROOM.depth() / 2.0);
-    mesh.place("lamp", &lamp, ROOM.hung(x, y, HEIGHT - 0.1));
+    mesh.place(
+        "lamp",
+        &lamp,
+        ROOM.hung(LAMP_AT[0], LAMP_AT[1], HEIGHT - 0.1),
+    );
     furnish(&mut mesh);
     mesh
 }
@@ -65,7 +69,7 @@ fn furnish(mesh: &mut Mesh) {
     let low = table(1.0, 0.6, 0.42, cell, OAK);
     mesh.place("low_table", &low, ROOM.inside(1.9, 2.4, 90.0));
     let seat = panel_chair(OAK, CLOTH_RUST);
-    mesh.place("chair", &seat, ROOM.inside(4.6, 3.1, 305.0));
+    mesh.place("chair", &seat, ROOM.inside(5.0, 3.1, 305.0));
     let books = ShelfSize {
         width: 1.4,
         height: 1.2,
@@ -75,8 +79,12 @@ fn furnish(mesh: &mut Mesh) {
     };
     let books = shelf(books, cell, PINE, &mut Dice::new(3));
     mesh.place("bookcase", &books, ROOM.against(Wall::East, 1.6, 0.32));
+    let divider = screen(2.0, 1.9, cell, CLOTH_BLUE, OAK);
+    mesh.place("screen", &divider, ROOM.inside(3.9, 3.4, 90.0));
+    let folding = screen(2.0, 1.9, cell, LINEN, DARK_METAL);
+    mesh.place("screen", &folding, ROOM.inside(4.3, 1.2, 75.0));
     let seat = bench(1.4, cell, OAK);
-    mesh.place("bench", &seat, ROOM.against(Wall::South, 3.4, 0.44));
+    mesh.place("bench", &seat, ROOM.against(Wall::South, 2.6, 0.44));
     let pot = plant(1.2, 1, 6, CLAY, LEAF);
     mesh.place("plant", &pot, ROOM.inside(5.8, 4.2, 0.0));
 }

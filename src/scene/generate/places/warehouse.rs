@@ -25,7 +25,7 @@ const PILLAR: f64 = 0.6;
 /// Rows of racks, the first row's distance from the south wall, and the way from row to row.
 const ROWS: usize = 5;
 const FIRST_ROW: f64 = 2.2;
-const ROW_PITCH: f64 = 3.4;
+const ROW_PITCH: f64 = 3.0;
 /// Racks in a row, where the row begins, and the gap between its racks.
 const RACKS: usize = 3;
 const ROW_START: f64 = 2.0;
@@ -41,9 +41,12 @@ const RACK: RackSize = RackSize {
 const STACKS: [usize; 2] = [3, 7];
 const STACK_PITCH: [f64; 2] = [2.3, 2.2];
 /// Largest side of a mesh cell of the shell in metres.
-const SHELL_CELL: f64 = 0.85;
-/// Lamp panels, columns by rows; sides and largest cell in metres; light.
-const LAMPS: [usize; 2] = [4, 2];
+const SHELL_CELL: f64 = 0.95;
+/// Lamp panels: where they hang along the hall, over which rows of racks (counted from the south),
+/// the height of their undersides, just above the racks, sides and largest cell, in metres; light.
+const LAMPS: [f64; 4] = [4.75, 11.65, 18.55, 27.9];
+const LAMP_ROWS: [f64; 2] = [1.0, 3.0];
+const LAMP_HEIGHT: f64 = 4.55;
 const LAMP: [f64; 2] = [2.4, 0.6];
 const LAMP_CELL: f64 = 0.6;
 const LAMP_LIGHT: Material = Material::lamp("hall_lamp", [60.0, 60.0, 58.0]);
@@ -64,11 +67,10 @@ pub fn warehouse() -> Mesh {
     let mut mesh = Mesh::default();
     mesh.object("hall", &space.mesh(|face| paint.of(face)));
     let lamp = lamp_panel(LAMP[0], LAMP[1], LAMP_CELL, STEEL, LAMP_LIGHT);
-    for column in 0..LAMPS[0] {
-        for row in 0..LAMPS[1] {
-            let x = HALL.width() * (column as f64 + 0.5) / LAMPS[0] as f64;
-            let y = HALL.depth() * (row as f64 + 0.5) / LAMPS[1] as f64;
-            mesh.place("lamp", &lamp, HALL.hung(x, y, HEIGHT - 0.3));
+    for x in LAMPS {
+        for row in LAMP_ROWS {
+            let y = FIRST_ROW + ROW_PITCH * row;
+            mesh.place("lamp", &lamp, HALL.hung(x, y, LAMP_HEIGHT));
         }
     }
     let mut dice = Dice::new(7);
@@ -99,7 +101,7 @@ fn place_stacks(mesh: &mut Mesh, dice: &mut Dice) {
                 dice.between(0.9, 1.2),
                 dice.between(0.7, 1.0),
             ];
-            let layers = 1 + dice.pick(4);
+            let layers = 2 + dice.pick(3);
             let woods = [PINE, OAK, CARDBOARD];
             let piece = crate_stack(size, layers, RACK.cell, &woods, dice);
             let x = HALL.east - 1.8 - STACK_PITCH[0] * column as f64 + dice.between(-0.2, 0.2);
