@@ -44,11 +44,11 @@ const CI: [SuiteCase; 4] = [
 /// The built-in analogues of the paper's scenes at its settings.
 const PAPER: [SuiteCase; 6] = [
     case("a", 1.35e-6, 8, 1, 7),
-    case("b", 1.5e-6, 8, 1, 7),
-    case("c", 1.75e-5, 10, 3, 7),
-    case("d", 1.6e-5, 20, 3, 7),
-    case("e", 5.2e-6, 8, 3, 7),
-    case("f", 4.6e-7, 8, 3, 7),
+    case("b", 1.6e-6, 8, 1, 7),
+    case("c", 2.95e-5, 10, 3, 7),
+    case("d", 2.2e-5, 20, 3, 7),
+    case("e", 6.2e-6, 8, 3, 7),
+    case("f", 5.0e-7, 8, 3, 7),
 ];
 
 /// The cases of a suite: `ci` or `paper`.

@@ -123,11 +123,11 @@ pub struct TableSettings {
 pub fn table_settings(scene: &str) -> Option<TableSettings> {
     let (epsilon, rays, passes) = match scene {
         "a" => (1.35e-6, 8, 1),
-        "b" => (1.5e-6, 8, 1),
-        "c" => (1.75e-5, 10, 3),
-        "d" => (1.6e-5, 20, 3),
-        "e" => (5.2e-6, 8, 3),
-        "f" => (4.6e-7, 8, 3),
+        "b" => (1.6e-6, 8, 1),
+        "c" => (2.95e-5, 10, 3),
+        "d" => (2.2e-5, 20, 3),
+        "e" => (6.2e-6, 8, 3),
+        "f" => (5.0e-7, 8, 3),
         _ => return None,
     };
     Some(TableSettings {
