@@ -1,21 +1,36 @@
-//! Ctrl-C: the first asks the work to stop cleanly, the second ends the program at once.
+//! Ctrl-C: the first asks the work to stop cleanly, the second ends the program at once; so does the first while
+//! nothing is being written.
 
 use super::error::CliError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a shell reports for a program ended by an interruption: 128 + SIGINT.
-const INTERRUPTED: i32 = 130;
+/// The two flags between the handler and the work.
+pub struct Interrupt {
+    /// Rises at the first Ctrl-C or termination signal.
+    pub raised: Arc<AtomicBool>,
+    /// Raised by the work while there is nothing to clean up.
+    pub idle: Arc<AtomicBool>,
+}
 
-/// Installs the handler; the flag rises at the first Ctrl-C or termination signal.
-pub fn install() -> Result<Arc<AtomicBool>, CliError> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&flag);
+/// Installs the handler.
+pub fn install() -> Result<Interrupt, CliError> {
+    let interrupt = Interrupt {
+        raised: Arc::default(),
+        idle: Arc::default(),
+    };
+    let (raised, idle) = (Arc::clone(&interrupt.raised), Arc::clone(&interrupt.idle));
     ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED);
+        let first = !raised.swap(true, Ordering::Relaxed);
+        if first && !idle.load(Ordering::Relaxed) {
+            return;
         }
+        let error = CliError::Interrupted;
+        if first {
+            error.report();
+        }
+        std::process::exit(error.exit_code().into());
     })
     .map_err(|e| CliError::System(format!("cannot listen for interruptions: {e}")))?;
-    Ok(flag)
+    Ok(interrupt)
 }

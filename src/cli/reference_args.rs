@@ -3,6 +3,7 @@
 use super::solve_args::SceneArgs;
 use super::typed_number::parse_bound;
 use crate::reference::ReferenceConfig;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// `certilux reference`
@@ -47,7 +48,7 @@ pub struct ErrorCommand {
     pub reference: PathBuf,
     /// The scene, for a reference without Kd_rgb and Ke_rgb: an OBJ file, or builtin:NAME.
     #[arg(long, value_name = "SCENE")]
-    pub scene: Option<String>,
+    pub scene: Option<OsString>,
     /// Greatest relative RMS error that passes, such as 0.02.
     #[arg(long, value_name = "X", value_parser = parse_bound, allow_negative_numbers = true)]
     pub max: Option<f64>,

@@ -18,12 +18,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let cli = Cli::try_parse_from(&arguments)?;
     let rest = arguments.iter().skip(1);
+    let interrupt = interrupt::install()?;
     let session = Session {
         quiet: cli.quiet,
         words: std::iter::once("certilux".to_owned())
             .chain(rest.map(|a| a.to_string_lossy().into_owned()))
             .collect(),
-        interrupted: interrupt::install()?,
+        interrupted: interrupt.raised,
+        idle: interrupt.idle,
     };
     match cli.command {
         Command::Solve(command) => solve_command::run(&session, &command),

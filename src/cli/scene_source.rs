@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::solve_args::SceneArgs;
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, Scene, load_file, load_text};
+use std::ffi::OsStr;
 use std::path::Path;
 
 /// What stands before the name of a built-in scene.
@@ -19,10 +20,13 @@ pub fn load_scene(arguments: &SceneArgs) -> Result<Scene, CliError> {
 }
 
 /// The scene that `source` names.
-pub fn read_scene(source: &str, config: &LoadConfig) -> Result<Scene, CliError> {
-    match source.strip_prefix(BUILTIN) {
+pub fn read_scene(source: &OsStr, config: &LoadConfig) -> Result<Scene, CliError> {
+    let builtin = source
+        .to_str()
+        .and_then(|s| Some((s, s.strip_prefix(BUILTIN)?)));
+    match builtin {
         None => Ok(load_file(Path::new(source), config)?),
-        Some(name) => {
+        Some((source, name)) => {
             let scene = generate(name)?;
             let library = format!("{}.mtl", scene.name);
             Ok(load_text(

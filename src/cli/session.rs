@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::Write;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The run of the program that a command belongs to.
 pub struct Session {
@@ -13,9 +13,19 @@ pub struct Session {
     pub words: Vec<String>,
     /// Raised by Ctrl-C.
     pub interrupted: Arc<AtomicBool>,
+    /// Up while there is nothing to clean up, so that Ctrl-C may end the program at once.
+    pub idle: Arc<AtomicBool>,
 }
 
 impl Session {
+    /// Does `work` that writes nothing and does not ask whether it is to stop: Ctrl-C ends it at once.
+    pub fn stops_at_once<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.idle.store(true, Ordering::Relaxed);
+        let result = work();
+        self.idle.store(false, Ordering::Relaxed);
+        result
+    }
+
     /// A line of the summary on standard output; nothing with `--quiet`.
     pub fn say(&self, line: fmt::Arguments<'_>) {
         if !self.quiet {

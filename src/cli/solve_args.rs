@@ -4,13 +4,14 @@ use crate::occluder::OccluderConfig;
 use crate::scene::{LoadConfig, SidesMode};
 use crate::solve::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
 use clap::{Args, ValueEnum};
+use std::ffi::OsString;
 
 /// The scene and how to read it.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
     /// An OBJ file, or builtin:NAME (certilux generate --list).
     #[arg(value_name = "SCENE")]
-    pub scene: String,
+    pub scene: OsString,
     /// Bring reflectances of 1 and more down to just below 1 instead of refusing the scene.
     #[arg(long)]
     pub clamp_reflectance: bool,

@@ -9,10 +9,9 @@ use super::session::Session;
 use super::summary::print_summary;
 use crate::embree::DeviceConfig;
 use crate::output::{
-    HierarchyBlock, SceneBlock, SecondsBlock, SolvedMesh, StatsFile, ViewConfig, write_ply,
+    HierarchyBlock, SceneBlock, SecondsBlock, SolvedMesh, Staging, StatsFile, ViewConfig, write_ply,
 };
 use crate::solve::{ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, solve};
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -47,18 +46,20 @@ fn solve_and_write(
     config: &SolveConfig,
 ) -> Result<(), CliError> {
     let start = Instant::now();
-    let scene = load_scene(&command.scene)?;
+    let scene = session.stops_at_once(|| load_scene(&command.scene))?;
     let load = start.elapsed().as_secs_f64();
     // A folder that cannot be made is better known before the solve than after; an invalid scene makes none.
     make_folder(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
-    let prepared = PreparedScene::new(
-        scene,
-        command.scene.sides_mode(),
-        config.seed,
-        &DeviceConfig::default(),
-    )?
-    .with_guarantees(config.technique, &command.solve.occluders.config());
+    let prepared = session.stops_at_once(|| {
+        PreparedScene::new(
+            scene,
+            command.scene.sides_mode(),
+            config.seed,
+            &DeviceConfig::default(),
+        )
+        .map(|p| p.with_guarantees(config.technique, &command.solve.occluders.config()))
+    })?;
     let solving = Instant::now();
     let solved = solve(&prepared, config, &progress)?;
     progress.finish();
@@ -67,14 +68,9 @@ fn solve_and_write(
         eprintln!("certilux: warning: {warning}");
     }
     let writing = Instant::now();
-    let mut files = Vec::new();
-    let mut file = |name: &str| -> PathBuf {
-        let path = command.out.join(name);
-        files.push(path.clone());
-        path
-    };
+    let mut staging = Staging::new(&command.out)?;
     let mesh = SolvedMesh::new(&prepared.scene, &solved.solution);
-    write_ply(&file("solution.ply"), &mesh, &session.interrupted)?;
+    write_ply(&staging.file("solution.ply")?, &mesh, &session.interrupted)?;
     if !command.no_view {
         let picture = render(
             &mesh,
@@ -83,11 +79,13 @@ fn solve_and_write(
             &session.interrupted,
         )?;
         for name in ["view.exr", "view.png"] {
-            write_picture(&file(name), &picture, 0.0, &session.interrupted)?;
+            write_picture(&staging.file(name)?, &picture, 0.0, &session.interrupted)?;
         }
     }
-    let stats_path = file("stats.json");
+    let stats_path = staging.file("stats.json")?;
     let mut stats = stats_file(session, config, &prepared, &solved);
+    // With the black face of each polygon that no light reaches.
+    stats.hierarchy.leaves = mesh.faces.len();
     stats.seconds = SecondsBlock {
         load,
         cluster: prepared.seconds.cluster,
@@ -97,6 +95,7 @@ fn solve_and_write(
         output: writing.elapsed().as_secs_f64(),
     };
     stats.write(&stats_path, &session.interrupted)?;
+    let files = staging.publish()?;
     if !session.quiet {
         print_summary(&stats, &files);
     }

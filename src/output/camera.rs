@@ -5,6 +5,9 @@ use glam::{DVec2, DVec3};
 /// Widest picture side in pixels: the largest that common viewers open.
 const LARGEST_SIDE: u32 = 16_384;
 
+/// Largest coordinate: beyond it squares leave the range of f64.
+const FARTHEST: f64 = 1.0e150;
+
 /// Sine of the angle between the view and `up` below which "up" says nothing.
 const LEAST_UP: f64 = 1.0e-6;
 
@@ -30,6 +33,11 @@ pub enum CameraError {
     /// A coordinate or angle is NaN or infinite.
     #[error("the camera's {0} is not finite")]
     NotFinite(&'static str),
+    /// A coordinate whose square is beyond any number.
+    #[error(
+        "the camera's {0} has a coordinate beyond 1e150, farther than distances can be computed"
+    )]
+    TooFar(&'static str),
     /// Nowhere to look.
     #[error("the camera's eye and target are the same point")]
     NoDirection,
@@ -63,6 +71,9 @@ impl Camera {
         for (name, v) in [("eye", self.eye), ("target", self.target), ("up", self.up)] {
             if !v.is_finite() {
                 return Err(CameraError::NotFinite(name));
+            }
+            if v.abs().max_element() > FARTHEST {
+                return Err(CameraError::TooFar(name));
             }
         }
         if !(self.fov > 0.0 && self.fov < 180.0) {

@@ -24,6 +24,7 @@ mod reference_comparison;
 mod reference_file;
 mod smoothing;
 mod solved_mesh;
+mod staging;
 mod stats_file;
 mod tonemap;
 mod view;
@@ -46,6 +47,7 @@ pub use reference_file::{
     ReferenceFace, ReferenceMeta, mean_radiosity, read_reference, write_reference,
 };
 pub use solved_mesh::{SolvedFace, SolvedMesh};
+pub use staging::Staging;
 pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json, write_text};
 pub use tonemap::ToneMap;
 pub use view::{Shading, View, ViewConfig};

@@ -34,6 +34,11 @@ impl Assets<'_> {
         match self {
             Self::Folder(folder) => {
                 let path: PathBuf = folder.join(name);
+                let found = std::fs::metadata(&path)?;
+                // A pipe or a device may never end; a folder is refused by reading it.
+                if !found.is_file() && !found.is_dir() {
+                    return Err(io::Error::other("is a pipe or a device"));
+                }
                 let bytes = std::fs::read(&path)?;
                 Ok((path.display().to_string(), bytes))
             }

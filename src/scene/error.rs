@@ -21,6 +21,12 @@ pub enum Reason {
     /// The path is a directory.
     #[error("is a directory, not a file")]
     Directory,
+    /// A link that leads nowhere.
+    #[error("is a link to a file that does not exist")]
+    DanglingLink,
+    /// A pipe, a device or a socket, which may never end.
+    #[error("is a pipe or a device; a regular file is needed")]
+    NotAFile,
     /// The operating system refused to read it.
     #[error("cannot be read: {0}")]
     Unreadable(String),

@@ -26,15 +26,21 @@ use std::path::Path;
 pub fn load_file(path: &Path, config: &LoadConfig) -> Result<Scene, LoadError> {
     let name = path.display().to_string();
     let refuse = |reason| LoadError::one(&name, None, reason);
-    if path.is_dir() {
-        return Err(refuse(Reason::Directory));
-    }
-    let bytes = std::fs::read(path).map_err(|e| {
+    let unreadable = |e: io::Error| {
         refuse(match e.kind() {
+            io::ErrorKind::NotFound if path.is_symlink() => Reason::DanglingLink,
             io::ErrorKind::NotFound => Reason::Missing,
             _ => Reason::Unreadable(describe(&e)),
         })
-    })?;
+    };
+    let found = std::fs::metadata(path).map_err(unreadable)?;
+    if found.is_dir() {
+        return Err(refuse(Reason::Directory));
+    }
+    if !found.is_file() {
+        return Err(refuse(Reason::NotAFile));
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
     load(&name, bytes, Assets::Folder(folder), config)
 }
