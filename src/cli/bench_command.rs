@@ -97,7 +97,10 @@ fn run_case(case: &SuiteCase, now: &mut Baseline) -> Result<(), CliError> {
         rays: case.rays,
         ..SolveConfig::default()
     };
-    let scene = read_scene(&format!("builtin:{}", case.scene), &LoadConfig::default())?;
+    let scene = read_scene(
+        std::ffi::OsStr::new(&format!("builtin:{}", case.scene)),
+        &LoadConfig::default(),
+    )?;
     let device = DeviceConfig {
         isa: Some(ISA),
         ..DeviceConfig::default()

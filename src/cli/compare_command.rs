@@ -64,7 +64,7 @@ fn compare_all(
         let table = name.strip_prefix("builtin:").and_then(table_settings);
         let scene_config = settings_for(command, config, table);
         let reading = SceneArgs {
-            scene: name.clone(),
+            scene: name.into(),
             clamp_reflectance: command.clamp_reflectance,
             sides: command.sides,
             threads: command.threads,

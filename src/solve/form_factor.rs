@@ -121,8 +121,8 @@ pub struct Space<'a> {
     pub elements: &'a [Element],
     /// Unit normal of each facet.
     pub normals: &'a [Vec3],
-    /// Sum of the areas before each facet, and of all.
-    pub area_before: &'a [f64],
+    /// Sums of the sources' power before each facet, and of all.
+    pub power_before: &'a [f64],
     /// Depth below a surface within which nothing counts, normalised.
     pub tau: f32,
 }
@@ -160,17 +160,21 @@ fn element_vector(
     }
 }
 
-/// The vector K of a unit-radiosity cluster of any shape, seen from far away: every facet that faces the point
-/// counts, as if it stood at the centroid. What hides behind other facets is left to visibility.
+/// The vector K of a cluster of any shape and mean radiosity 1, seen from far away: every facet that faces the point
+/// counts by its power, as if it stood at the centroid, since lamps seldom shine the way their housings face. What hides behind other facets is left to visibility.
 fn wide_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
     let rel = source.centroid - point;
     if normal.is_some_and(|n| n.dot(rel) <= 0.0) {
         return Vec3::ZERO;
     }
     let inverse = 1.0 / rel.length_squared();
+    let range = source.facet_range();
+    let whole = space.power_before[range.end] - space.power_before[range.start];
     let mut flux = 0.0f32;
-    for facet in source.facet_range() {
-        let area = (space.area_before[facet + 1] - space.area_before[facet]) as f32;
+    for facet in range {
+        let power = space.power_before[facet + 1] - space.power_before[facet];
+        // The area that would send as much at the cluster's mean radiosity.
+        let area = source.area * (power / whole) as f32;
         flux += area * (-space.normals[facet].dot(rel)).max(0.0);
     }
     rel * (flux * inverse * inverse * FRAC_1_PI)

@@ -59,6 +59,7 @@ struct Pass<'a, const C: usize> {
     context: SolveContext<'a>,
     shooters: &'a [Shooter<C>],
     node_unshot: &'a [[f32; C]],
+    power_before: &'a [f64],
     owner_of_facet: &'a [u32],
     first_facets: &'a [u32],
     oracle: Oracle,
@@ -112,6 +113,7 @@ pub fn run_pass<const C: usize>(
         shooters,
         gatherers,
         node_unshot,
+        power_before,
         owner_of_facet,
         first_facets,
     } = light;
@@ -119,6 +121,7 @@ pub fn run_pass<const C: usize>(
         context,
         shooters,
         node_unshot,
+        power_before,
         owner_of_facet,
         first_facets,
         oracle: Oracle {
@@ -336,7 +339,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
 
     /// What eight rays say of a pair; `None` if none of them carries light.
     fn probe(&mut self, source: &Source, receiver: &Element) -> Option<Evidence> {
-        let sampled = self.sample(self.pass.context.embree, source, receiver, PROBE_RAYS);
+        let sampled = self.sample(self.pass.context.embree, source, receiver, PROBE_RAYS, 0);
         self.outcome.statistics.rays += u64::from(sampled.rays);
         self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
         match sampled.rays {
@@ -456,7 +459,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 hierarchy: context.hierarchy,
                 elements: context.elements,
                 normals: context.normals,
-                area_before: context.area_before,
+                power_before: self.pass.power_before,
                 tau: context.tau,
             },
             &source.element,
@@ -492,7 +495,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 match verdict {
                     Verdict::Visible => {
                         self.outcome.statistics.exchanges_visible += 1;
-                        self.visible_share(source, &receiver.element)
+                        self.visible_share(source, &receiver.element, greatest)
                     }
                     // Reached only while claims are being checked.
                     _ => return,
@@ -515,12 +518,17 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         greatest: f64,
         known: Known,
     ) -> Option<f32> {
-        let sampled = self.sample_where_cheapest(source, &receiver.element, known);
-        let partly = !(sampled.all_blocked || sampled.all_clear);
-        let oracle = &self.pass.oracle;
-        if partly && oracle.refines_shadow(&source.element, &receiver.element, greatest) {
-            self.split_receiver(source, receiver, known.below());
-            return None;
+        let mut sampled = self.sample_where_cheapest(source, &receiver.element, known, 0);
+        if self.refines_if_partial(source, &receiver.element, greatest) {
+            if !(sampled.all_blocked || sampled.all_clear) {
+                self.split_receiver(source, receiver, known.below());
+                return None;
+            }
+            // Samples that decide cannot measure as well: a slit that most sets of samples miss would pass light
+            // only where it is found and refined, and too little in the mean.
+            if sampled.rays > 0 {
+                sampled = self.sample_where_cheapest(source, &receiver.element, known, 1);
+            }
         }
         let statistics = &mut self.outcome.statistics;
         // Where no sample carries light there was no ray, and nothing that stands in its way.
@@ -550,6 +558,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         source: &Source,
         receiver: &Element,
         known: Known,
+        round: u64,
     ) -> SampledVisibility {
         let rays = self.pass.config.rays;
         if self.pass.config.technique == Technique::Blockers {
@@ -558,7 +567,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             let native = prover
                 .as_mut()
                 .and_then(|p| p.blockers(known.knowledge))
-                .map(|list| self.sample(list, source, receiver, rays));
+                .map(|list| self.sample(list, source, receiver, rays, round));
             self.prover = prover;
             if let Some(sampled) = native {
                 let statistics = &mut self.outcome.statistics;
@@ -567,23 +576,43 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 return sampled;
             }
         }
-        let sampled = self.sample(self.pass.context.embree, source, receiver, rays);
+        let sampled = self.sample(self.pass.context.embree, source, receiver, rays, round);
         let statistics = &mut self.outcome.statistics;
         statistics.rays += u64::from(sampled.rays);
         statistics.rays_blocked += u64::from(sampled.rays_blocked);
         sampled
     }
 
+    /// Whether the pair would be split were its samples partly blocked.
+    fn refines_if_partial(&self, source: &Source, receiver: &Element, greatest: f64) -> bool {
+        let oracle = &self.pass.oracle;
+        oracle.refines_shadow(&source.element, receiver, greatest)
+    }
+
     /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
     /// technique without proofs would find none either.
-    fn visible_share(&self, source: &Source, receiver: &Element) -> f32 {
-        if source.element.faces_beyond(receiver, LEAST_COSINE)
+    fn visible_share(&self, source: &Source, receiver: &Element, greatest: f64) -> f32 {
+        let is_open = |element: &Element| {
+            let context = self.pass.context;
+            let facet = context.hierarchy.facets[element.first_facet as usize];
+            !(element.is_triangle() && context.scene.contacts.touches(facet))
+        };
+        if is_open(&source.element)
+            && is_open(receiver)
+            && source.element.faces_beyond(receiver, LEAST_COSINE)
             && receiver.faces_beyond(&source.element, LEAST_COSINE)
         {
             return 1.0;
         }
-        self.sample(AllClear, source, receiver, self.pass.config.rays)
-            .visibility
+        let rays = self.pass.config.rays;
+        let first = self.sample(AllClear, source, receiver, rays, 0);
+        if (first.all_clear || first.all_blocked)
+            && first.rays > 0
+            && self.refines_if_partial(source, receiver, greatest)
+        {
+            return self.sample(AllClear, source, receiver, rays, 1).visibility;
+        }
+        first.visibility
     }
 
     /// Casts the rays that a claim saves, and judges those that disagree.
@@ -597,7 +626,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             test: self.pass.context.embree,
             segments: &mut segments,
         };
-        self.sample(recording, source, receiver, self.pass.config.rays);
+        self.sample(recording, source, receiver, self.pass.config.rays, 0);
         self.outcome
             .check
             .judge(&guarantees.scene, claim, &segments);
@@ -610,9 +639,10 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         source: &Source,
         receiver: &Element,
         rays: u32,
+        round: u64,
     ) -> SampledVisibility {
         let context = self.pass.context;
-        let key = exchange_key(self.pass.key, &source.element, receiver);
+        let key = exchange_key(self.pass.key.wrapping_add(round), &source.element, receiver);
         sample_visibility(
             test,
             &SourceSurface {
@@ -620,8 +650,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 scene: context.scene,
                 hierarchy: context.hierarchy,
                 normals: context.normals,
-                area_before: context.area_before,
-                radiosity: self.radiosity(source).iter().sum(),
+                power_before: self.pass.power_before,
                 shooters: self.pass.shooters,
                 owner_of_facet: self.pass.owner_of_facet,
                 first_facets: self.pass.first_facets,

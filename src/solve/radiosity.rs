@@ -92,6 +92,8 @@ pub struct Radiosity<const C: usize> {
     pub gatherers: Vec<Gatherer<C>>,
     /// Unshot radiosity of every node, area-weighted mean.
     pub node_unshot: Vec<[f32; C]>,
+    /// Sums of the unshot power, over all channels, of the facets before each facet; one longer.
+    pub power_before: Vec<f64>,
     /// The owner of each facet.
     pub owner_of_facet: Vec<u32>,
     /// The first facet of each owner.
@@ -120,6 +122,7 @@ impl<const C: usize> Radiosity<C> {
             shooters,
             gatherers,
             node_unshot: vec![[0.0; C]; hierarchy.nodes.len()],
+            power_before: vec![0.0; hierarchy.facets.len() + 1],
             owner_of_facet,
             first_facets: cut
                 .iter()
@@ -156,6 +159,14 @@ impl<const C: usize> Radiosity<C> {
                         / (area_a + area_b)) as f32
                 })
             };
+            if node.kind == NodeKind::Facet {
+                let radiosity: f32 = self.node_unshot[index].iter().sum();
+                self.power_before[node.first_facet as usize + 1] =
+                    f64::from(radiosity) * f64::from(hierarchy.shapes[index].area);
+            }
+        }
+        for facet in 1..self.power_before.len() {
+            self.power_before[facet] += self.power_before[facet - 1];
         }
     }
 
@@ -167,5 +178,6 @@ impl<const C: usize> Radiosity<C> {
             .map(|g| g.children.len() * per_patch + g.vectors.len() * size_of::<[DVec3; C]>())
             .sum::<usize>()
             + self.node_unshot.len() * size_of::<[f32; C]>()
+            + self.power_before.len() * size_of::<f64>()
     }
 }

@@ -1,8 +1,7 @@
-//! Elements as surfaces to sample, uniformly by area.
+//! Elements as surfaces to sample: receivers uniformly by area, sources by the power that they have to shoot.
 //!
 //! Light and visibility go together (the lit part of a floor is the part that is not under the
-//! furniture), so a visibility averaged over a source's area would be too low for its light. Source points
-//! therefore carry the frozen unshot radiosity at the point, over the source's mean.
+//! furniture), so a visibility averaged over a source's area would be too low for its light.
 
 use super::element::{Element, Shape};
 use super::radiosity::Shooter;
@@ -44,7 +43,7 @@ impl Surface for ReceiverSurface<'_> {
         for l in 0..8 {
             let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
             let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
-            points.set(l, corners, self.normals[facet], [rest, v[l]], 1.0);
+            points.set(l, corners, self.normals[facet], [rest, v[l]]);
             let facet = self.hierarchy.facets[facet];
             let hidden = self.scene.contacts.is_hidden(facet, points.position(l));
             points.swallowed |= u8::from(hidden) << l;
@@ -63,10 +62,8 @@ pub struct SourceSurface<'a, const C: usize> {
     pub hierarchy: &'a Hierarchy,
     /// Unit normals of the facets.
     pub normals: &'a [Vec3],
-    /// Sums of the areas before each facet.
-    pub area_before: &'a [f64],
-    /// Unshot radiosity of the element, sum of the channels; positive.
-    pub radiosity: f32,
+    /// Sums of the unshot power before each facet.
+    pub power_before: &'a [f64],
     /// What every owner's patches have to shoot.
     pub shooters: &'a [Shooter<C>],
     /// Owner of each facet.
@@ -99,7 +96,7 @@ impl<const C: usize> Surface for SourceSurface<'_, C> {
         }
         let mut points = PointOctet::of_triangle([self.element.centroid; 3], normal, u, v);
         for l in 0..8 {
-            let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
+            let (facet, rest) = choose_facet(self.element, self.power_before, u[l]);
             let owner = self.owner_of_facet[facet];
             let slot = facet as u32 - self.first_facets[owner as usize];
             let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
@@ -125,8 +122,8 @@ impl<const C: usize> SourceSurface<'_, C> {
         }
     }
 
-    /// Puts a point of a frozen patch into lane `l`: down its split with `u`, whose four children have equal
-    /// areas.
+    /// Puts a point of a frozen patch into lane `l`: down its split with `u`, by the children's
+    /// light.
     fn set_patch_point(
         &self,
         points: &mut PointOctet,
@@ -139,13 +136,18 @@ impl<const C: usize> SourceSurface<'_, C> {
         let shooter = &self.shooters[owner as usize];
         let mut slot = slot as usize;
         while shooter.children[slot] != 0 {
-            let which = ((4.0 * u) as u32).min(3);
-            u = 4.0 * u - which as f32;
+            let first = shooter.children[slot] as usize;
+            let light: [f32; 4] = std::array::from_fn(|k| shooter.unshot[first + k].iter().sum());
+            let (mut which, mut rest) = (0, u * light.iter().sum::<f32>());
+            while which < 3 && rest >= light[which as usize] {
+                rest -= light[which as usize];
+                which += 1;
+            }
+            u = (rest / light[which as usize].max(f32::MIN_POSITIVE)).clamp(0.0, BELOW_ONE);
             corners = split_triangle(corners, which);
             slot = (shooter.children[slot] + which) as usize;
         }
-        let light = shooter.unshot[slot].iter().sum::<f32>() / self.radiosity;
-        points.set(l, corners, normal, [u, v], light);
+        points.set(l, corners, normal, [u, v]);
     }
 }
 

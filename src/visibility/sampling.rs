@@ -2,9 +2,9 @@
 //! one road for whatever is not proved).
 //!
 //! The visibility of an exchange is the mean of its samples' visibility weighted with the kernel
-//! cos cos / r^2, since it multiplies an unoccluded form factor, times the light at the source's
-//! point over the source's mean, since light and visibility go together: so it can exceed 1 where the bright
-//! part is the visible one. A sample whose kernel is not positive carries no light and casts no ray.
+//! cos cos / r^2, since it multiplies an unoccluded form factor; sources choose their points by the light that
+//! they send, since light and visibility go together. A sample whose kernel is not positive carries no light
+//! and casts no ray.
 //!
 //! No ray excludes a polygon by identity. It is trimmed where its depth below the plane of the
 //! sample at either end exceeds tau: t = tau / cos on both sides.
@@ -95,8 +95,6 @@ pub struct PointOctet {
     pub position: [[f32; 8]; 3],
     /// Unit normals of their facets, on the facets' sides.
     pub normal: [[f32; 8]; 3],
-    /// Light that they send, over their element's mean; 1 for receivers.
-    pub light: [f32; 8],
     /// Bit per point where something touches the surface and swallows light that the element's mean counts on.
     pub swallowed: u8,
     /// Bit per point where something touches the surface and the element's mean light comes from elsewhere on it.
@@ -122,7 +120,6 @@ impl PointOctet {
         Self {
             position,
             normal: normal.to_array().map(|n| [n; 8]),
-            light: [1.0; 8],
             swallowed: 0,
             absent: 0,
         }
@@ -134,14 +131,7 @@ impl PointOctet {
     }
 
     /// Replaces lane `l` by a point of a triangle, as [`Self::of_triangle`] does.
-    pub fn set(
-        &mut self,
-        l: usize,
-        corners: [Vec3; 3],
-        normal: Vec3,
-        [u, v]: [f32; 2],
-        light: f32,
-    ) {
+    pub fn set(&mut self, l: usize, corners: [Vec3; 3], normal: Vec3, [u, v]: [f32; 2]) {
         let [a, b, c] = corners;
         let (u, v) = match u + v > 1.0 {
             true => (1.0 - u, 1.0 - v),
@@ -152,13 +142,12 @@ impl PointOctet {
             self.position[axis][l] = position[axis];
             self.normal[axis][l] = normal[axis];
         }
-        self.light[l] = light;
     }
 }
 
-/// An element that can be sampled uniformly by area.
+/// An element that can be sampled: a receiver uniformly by area, a source by its light.
 pub trait Surface {
-    /// The points at eight `(u, v)` in [0,1)^2; uniform in gives uniform out.
+    /// The points at eight `(u, v)` in [0,1)^2; uniform in gives that out.
     fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet;
 }
 
@@ -166,7 +155,7 @@ pub trait Surface {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampledVisibility {
     /// What share of the unoccluded light arrives: 1 when every sample is clear, 0 when every one
-    /// is blocked or none carries light; else it may exceed 1.
+    /// is blocked or none carries light.
     pub visibility: f32,
     /// Rays cast.
     pub rays: u32,
@@ -232,7 +221,7 @@ pub fn sample_visibility(
             result.rays_blocked += blocked.count_ones();
             for l in 0..8 {
                 if blocked & (1 << l) == 0 {
-                    clear_weight += trimmed.weight[l] * from.light[l];
+                    clear_weight += trimmed.weight[l];
                 }
             }
             index += lanes;

@@ -188,3 +188,54 @@ fn textures_that_are_not_there_or_not_pictures() {
         run.ends_with(0, map).says(&["warning"]);
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_in_no_known_encoding() {
+    use std::os::unix::ffi::OsStringExt;
+    let folder = Folder::new();
+    write_room(&folder);
+    let name = std::ffi::OsString::from_vec(b"r\xe4ume.obj".to_vec());
+    fs::copy(folder.path("room.obj"), folder.path(&name)).unwrap();
+    let mut arguments: Vec<std::ffi::OsString> =
+        ["solve", "--out", "results"].map(Into::into).to_vec();
+    arguments.extend(COARSE.split_whitespace().map(Into::into));
+    arguments.push(name);
+    folder.run(&arguments).ends_with(0, "a Latin-1 name");
+    assert!(folder.stats("results")["power"]["emitted"].as_f64() > Some(0.0));
+}
+
+#[test]
+fn leaves_count_the_black_faces() {
+    let folder = Folder::new();
+    write_room(&folder);
+    // A small sealed box beside the room, seen from inside only: no light reaches any of its fronts.
+    let inside = ROOM[0].replace("usemtl lamp", "usemtl wall");
+    let mut obj = ROOM[0].to_owned();
+    let vertices = ROOM[0].lines().filter(|l| l.starts_with("v ")).count();
+    for line in inside.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let c: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
+                writeln!(obj, "v {} {} {}", c[0] + 9.0, c[1], c[2]).unwrap();
+            }
+            Some("f") => {
+                let corners: Vec<usize> = words.map(|w| w.parse().unwrap()).collect();
+                let shifted: Vec<String> =
+                    corners.iter().map(|c| (c + vertices).to_string()).collect();
+                writeln!(obj, "f {}", shifted.join(" ")).unwrap();
+            }
+            Some("usemtl") => writeln!(obj, "{line}").unwrap(),
+            _ => {}
+        }
+    }
+    folder.write("room.obj", obj);
+    folder
+        .line(&format!("solve room.obj --out results {COARSE}"))
+        .ends_with(0, "a dark box");
+    let mesh = read_ply(&folder.path("results/solution.ply")).unwrap();
+    let leaves = folder.stats("results")["hierarchy"]["leaves"].as_u64();
+    assert_eq!(leaves, Some(mesh.faces.len() as u64));
+    assert!(mesh.faces.iter().any(|f| f.irradiance == [0.0; 3]));
+}

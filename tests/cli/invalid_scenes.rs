@@ -36,6 +36,23 @@ fn files_that_are_no_scene() {
     refused(&folder, "room.obj/below.obj", &["room.obj/below.obj"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_not_read() {
+    let folder = Folder::new();
+    write_room(&folder);
+    std::os::unix::fs::symlink("nowhere.obj", folder.path("link.obj")).unwrap();
+    refused(&folder, "link.obj", &["link.obj", "a link"]);
+    refused(&folder, "/dev/zero", &["/dev/zero", "device"]);
+    // Opening a pipe that nobody writes into would wait for ever.
+    let pipe = folder.path("pipe.obj");
+    rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, rustix::fs::Mode::RUSR).unwrap();
+    refused(&folder, "pipe.obj", &["pipe.obj", "a pipe"]);
+    fs::remove_file(folder.path("room.mtl")).unwrap();
+    fs::rename(&pipe, folder.path("room.mtl")).unwrap();
+    refused(&folder, "room.obj", &["room.mtl", "a pipe"]);
+}
+
 #[test]
 fn defects_are_named_with_file_and_line() {
     let folder = Folder::new();

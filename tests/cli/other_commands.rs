@@ -79,6 +79,7 @@ fn pictures_of_a_solved_folder() {
         "--out x.png --eye 1,2",
         "--out x.png --eye 1,2,NaN",
         "--out x.png --eye 0,0,0 --target 0,0,0",
+        "--out x.png --eye 1e300,0,0",
         "--out x.png --up 0,0,0",
         "--out x.png --camera upside-down",
     ] {
