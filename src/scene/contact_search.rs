@@ -6,8 +6,9 @@
 //! through a back. Sheets have nothing there, and two shells laid into each other are left and entered at once.
 
 use super::contacts::Contacts;
+use super::facet::Side;
 use super::flat::{Flat, are_apart};
-use super::model::{Scene, Side};
+use super::model::Scene;
 use super::overlap::Overlaps;
 use super::polygon_tree::{MOST_VISITS, PolygonTree};
 use super::side_graph::{SideIndex, side_index};

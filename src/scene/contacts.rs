@@ -2,7 +2,7 @@
 //! more than tau. Rays that are trimmed by tau (see [`crate::visibility`]) would start inside the solid, so
 //! samples ask here instead.
 
-use super::model::Facet;
+use super::facet::Facet;
 use super::side_graph::{SideIndex, side_index};
 use crate::math::Aabb;
 use glam::{DVec3, Vec3};

@@ -5,6 +5,7 @@
 //! back to the file's units, and `source_positions` keeps the vertices as they were read.
 
 use super::contacts::Contacts;
+use super::facet::{Facet, Side};
 use crate::math::{Aabb, PolygonId};
 use glam::{DVec3, Vec3};
 
@@ -28,25 +29,6 @@ pub struct Surface {
     pub reflectance: [f64; 3],
     /// Emitted radiance `Ke` in W/m2/sr (emitted radiosity is pi times it), from the winding side only.
     pub emission: [f64; 3],
-}
-
-/// One side of a polygon.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Side {
-    /// The side from which the vertices run counter-clockwise; the only one that emits.
-    Front,
-    /// The other side.
-    Back,
-}
-
-/// One side of a polygon that receives and reflects light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Facet {
-    /// The polygon.
-    pub polygon: PolygonId,
-    /// Which of its sides.
-    pub side: Side,
 }
 
 /// The map between the file's units and normalised units: `normalised = (read - centre) * scale`.

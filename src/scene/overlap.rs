@@ -5,8 +5,9 @@
 //! before a back, then the lower index.
 
 use super::convex::{area, perimeter, split};
+use super::facet::{Facet, Side};
 use super::flat::{Flat, are_apart};
-use super::model::{Facet, Scene, Side};
+use super::model::Scene;
 use super::polygon_tree::{MOST_VISITS, PolygonTree};
 use super::side_graph::{SideIndex, side_index};
 use crate::math::{Aabb, PolygonId};

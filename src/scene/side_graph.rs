@@ -1,6 +1,6 @@
 //! Which sides of polygons see each other, as far as probe rays tell: a union-find over sides.
 
-use super::model::{Facet, Side};
+use super::facet::{Facet, Side};
 use crate::math::PolygonId;
 
 /// Index of a side: twice its polygon, plus one for the back.

@@ -5,7 +5,8 @@
 //! and the groups with an emitter exist. Sides that are joined early need few probes; those that
 //! remain alone get all of theirs before they are given up.
 
-use super::model::{Facet, Scene, Side};
+use super::facet::{Facet, Side};
+use super::model::Scene;
 use super::overlap::find_overlaps;
 use super::side_graph::{SideGraph, SideIndex, facet_at, side_index};
 use crate::embree::{CommittedScene, Hit, Ray};

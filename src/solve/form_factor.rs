@@ -8,17 +8,13 @@
 
 use super::composite_rule::{CompositeRule, MOST_POINTS, three_points};
 use super::element::{Element, Shape};
-use super::irradiance_kernel::{Shining, irradiance_on};
+use super::irradiance_kernel::{CONTOUR_RADII, POINT_RADII, Shining, irradiance_on};
 use crate::cluster::Hierarchy;
 use crate::math::NodeId;
 use crate::scene::Scene;
 use glam::Vec3;
 use std::f32::consts::{FRAC_1_PI, PI};
 
-/// Beyond this many radii a three-point rule of degree 2 errs by less than (1/12)^4 = 5e-5.
-pub(super) const CONTOUR_RADII: f32 = 12.0;
-/// Beyond this many radii the centroid alone errs by less than half (1/40)^2 = 3e-4.
-pub(super) const POINT_RADII: f32 = 40.0;
 /// A cluster is taken as one flux vector beyond this many radii (its radius bounds its box, about
 /// twice its radius of gyration, so the error is below (1/24)^2 = 2e-3), else as its two children.
 const CLUSTER_RADII: f32 = 12.0;

@@ -12,6 +12,8 @@ mod fixture;
 mod form_factor;
 mod guarantees;
 mod irradiance_kernel;
+#[cfg(test)]
+mod irradiance_tests;
 mod ledger;
 mod observer;
 mod oracle;

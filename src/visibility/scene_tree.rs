@@ -25,10 +25,6 @@ pub struct SceneTree {
     bounds: Aabb,
 }
 
-/// Share of the weld distance by which polygons are pulled in. The rest, a quarter of 1e-6 of the
-/// diagonal, is more than rounding the pulled-in corners to f32 can move them (5.2e-8 of it).
-pub(super) const PULL: f64 = 0.75;
-
 impl SceneTree {
     /// The hierarchy over all polygons of `scene`.
     pub fn build(scene: &Scene) -> Self {
