@@ -161,8 +161,11 @@ impl<'a> Prover<'a> {
                 &mut self.last_occluder,
                 &mut self.occlusion,
             );
-            self.schedule
-                .learn_occlusion(expected, answer.occluder.is_some());
+            self.schedule.learn_occlusion(
+                expected,
+                answer.occluder.is_some(),
+                answer.nodes + answer.tests,
+            );
             if answer.occluder.is_some() {
                 statistics.occluded_claims += 1;
                 known.verdict = Verdict::Occluded;
@@ -190,7 +193,7 @@ impl<'a> Prover<'a> {
         );
         below[0].is_short = None;
         self.schedule
-            .learn_visibility(expected, answer.verdict == Verdict::Visible);
+            .learn_visibility(expected, answer.verdict == Verdict::Visible, answer.nodes);
         known.list = next as u32;
         known.verdict = answer.verdict;
         statistics.visible_claims += u64::from(answer.verdict == Verdict::Visible);

@@ -53,6 +53,8 @@ pub enum Evidence {
 struct Record {
     attempts: f32,
     successes: f32,
+    /// What the attempts cost together, in exchanges' rays.
+    cost: f32,
     /// How often a query was left out since the last one.
     skipped: u32,
 }
@@ -62,22 +64,25 @@ impl Record {
     const PRIOR: Self = Self {
         attempts: 2.0,
         successes: 1.0,
+        cost: 2.0 * QUERY_COST,
         skipped: 0,
     };
 
-    fn learn(&mut self, success: bool) {
+    fn learn(&mut self, success: bool, cost: f32) {
         self.attempts += 1.0;
+        self.cost += cost;
         self.successes += f32::from(u8::from(success));
         // Half of the past is forgotten: the walk moves on to other surfaces.
         if self.attempts > MEMORY {
             self.attempts *= 0.5;
             self.successes *= 0.5;
+            self.cost *= 0.5;
         }
     }
 
-    /// True if the mean gain exceeds `cost`; now and then in any case, lest a bad start lasts.
-    fn pays(&mut self, gain: f32, cost: f32) -> bool {
-        let pays = self.successes * gain > cost * self.attempts;
+    /// True if the mean gain exceeds the mean cost; now and then in any case, lest a bad start lasts.
+    fn pays(&mut self, gain: f32) -> bool {
+        let pays = self.successes * gain > self.cost;
         if pays || self.skipped >= RETRY_AFTER {
             self.skipped = 0;
             return true;
@@ -96,9 +101,14 @@ const SIZES: usize = 16;
 /// Cost of eight probe rays and of a query, in exchanges' rays.
 const PROBE_COST: f32 = 1.0;
 const QUERY_COST: f32 = 1.5;
+/// Parts of a query's cost, in exchanges' rays: what every query costs, a node or full test of the occluders,
+/// and a node or leaf of the scene with its polygons.
+const QUERY_BASE_COST: f32 = 0.5;
+const OCCLUDER_STEP_COST: f32 = 0.05;
+const NODE_COST: f32 = 0.5;
 /// Nodes and leaves that any walk, and no walk but the paper's, may test.
 const LEAST_NODES: f32 = 8.0;
-const MOST_NODES: f32 = 1024.0;
+const MOST_NODES: f32 = 96.0;
 /// Expected exchanges from which a pair is worth a look.
 const LEAST_EXPECTED: f32 = 8.0;
 /// Least factor between the expected exchanges of nested pairs that are both looked at.
@@ -130,8 +140,7 @@ impl QuerySchedule {
         if expected < LEAST_EXPECTED || expected * STRIDE_FACTOR > asked_at {
             return Queries::None;
         }
-        let cost = PROBE_COST + QUERY_COST;
-        match self.either[size(expected)].pays(expected, cost) {
+        match self.either[size(expected)].pays(expected) {
             true => Queries::Probe,
             false => Queries::None,
         }
@@ -142,16 +151,13 @@ impl QuerySchedule {
         let size = size(expected);
         match evidence {
             Evidence::Blocked
-                if self.technique.proves_occlusion()
-                    && self.occlusion[size].pays(expected, QUERY_COST) =>
+                if self.technique.proves_occlusion() && self.occlusion[size].pays(expected) =>
             {
                 Queries::Occlusion
             }
-            Evidence::Clear if self.visibility[size].pays(expected, QUERY_COST) => {
-                Queries::Visibility
-            }
+            Evidence::Clear if self.visibility[size].pays(expected) => Queries::Visibility,
             Evidence::Mixed => {
-                self.either[size].learn(false);
+                self.either[size].learn(false, PROBE_COST);
                 self.shorten()
             }
             _ => self.shorten(),
@@ -182,16 +188,18 @@ impl QuerySchedule {
         }
     }
 
-    /// Remembers how a query for occlusion ended.
-    pub fn learn_occlusion(&mut self, expected: f32, success: bool) {
-        self.occlusion[size(expected)].learn(success);
-        self.either[size(expected)].learn(success);
+    /// Remembers how a query for occlusion ended, after so many nodes and full tests.
+    pub fn learn_occlusion(&mut self, expected: f32, success: bool, steps: u32) {
+        let cost = QUERY_BASE_COST + OCCLUDER_STEP_COST * steps as f32;
+        self.occlusion[size(expected)].learn(success, cost);
+        self.either[size(expected)].learn(success, PROBE_COST + cost);
     }
 
-    /// Remembers how a query for visibility ended.
-    pub fn learn_visibility(&mut self, expected: f32, success: bool) {
-        self.visibility[size(expected)].learn(success);
-        self.either[size(expected)].learn(success);
+    /// Remembers how a query for visibility ended, after so many nodes and leaves.
+    pub fn learn_visibility(&mut self, expected: f32, success: bool, nodes: u32) {
+        let cost = QUERY_BASE_COST + NODE_COST * nodes as f32;
+        self.visibility[size(expected)].learn(success, cost);
+        self.either[size(expected)].learn(success, PROBE_COST + cost);
     }
 }
 
