@@ -97,6 +97,12 @@ fn drop_share(pass: u32) -> f64 {
 /// Probe rays of a pair: one packet.
 const PROBE_RAYS: u32 = 8;
 
+/// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Most exchanges cast a second
+/// set of samples (1.75 sets on average in cornell, d and f).
+fn packets_of_exchange(rays: u32) -> f32 {
+    1.75 * rays.div_ceil(8) as f32
+}
+
 /// Visits between two questions to the observer: a few hundred microseconds.
 const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
 
@@ -319,7 +325,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             return known;
         };
         let (from, to) = (&source.element, &receiver.element);
-        let expected = self.pass.oracle.expected_exchanges(from, to, greatest);
+        let expected = self.pass.oracle.expected_exchanges(from, to, greatest)
+            * packets_of_exchange(self.pass.config.rays);
         let mut queries = prover.plan_before_split(from, to, known.knowledge, expected);
         if queries == Queries::Probe {
             queries = match self.probe(source, to) {

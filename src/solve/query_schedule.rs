@@ -53,7 +53,7 @@ pub enum Evidence {
 struct Record {
     attempts: f32,
     successes: f32,
-    /// What the attempts cost together, in exchanges' rays.
+    /// What the attempts cost together, in packets of eight rays.
     cost: f32,
     /// How often a query was left out since the last one.
     skipped: u32,
@@ -96,22 +96,22 @@ impl Record {
 const MEMORY: f32 = 64.0;
 /// Queries left out in a row before one is made all the same.
 const RETRY_AFTER: u32 = 64;
-/// Sizes of pairs told apart: powers of two of the expected exchanges.
+/// Sizes of pairs told apart: powers of two of the packets that a proof may save.
 const SIZES: usize = 16;
-/// Cost of eight probe rays and of a query, in exchanges' rays.
+/// Cost of eight probe rays and of a query, in packets of eight rays.
 const PROBE_COST: f32 = 1.0;
 const QUERY_COST: f32 = 1.5;
-/// Parts of a query's cost, in exchanges' rays: what every query costs, a node or full test of the occluders,
+/// Parts of a query's cost, in packets of eight rays: what every query costs, a node or full test of the occluders,
 /// and a node or leaf of the scene with its polygons.
 const QUERY_BASE_COST: f32 = 0.5;
 const OCCLUDER_STEP_COST: f32 = 0.05;
-const NODE_COST: f32 = 0.5;
+const NODE_COST: f32 = 1.5;
 /// Nodes and leaves that any walk, and no walk but the paper's, may test.
 const LEAST_NODES: f32 = 8.0;
-const MOST_NODES: f32 = 96.0;
-/// Expected exchanges from which a pair is worth a look.
+const MOST_NODES: f32 = 32.0;
+/// Packets to be saved from which a pair is worth a look.
 const LEAST_EXPECTED: f32 = 8.0;
-/// Least factor between the expected exchanges of nested pairs that are both looked at.
+/// Least factor between what proofs of nested pairs may save that are both looked at.
 const STRIDE_FACTOR: f32 = 4.0;
 
 /// The schedule of one task.
@@ -134,7 +134,7 @@ impl QuerySchedule {
         }
     }
 
-    /// Whether to look at a pair with `expected` exchanges below it, where the last one looked at
+    /// Whether to look at a pair with `expected` packets to be cast below it, where the last one looked at
     /// above had `asked_at`.
     pub fn before_split(&mut self, expected: f32, asked_at: f32) -> Queries {
         if expected < LEAST_EXPECTED || expected * STRIDE_FACTOR > asked_at {
