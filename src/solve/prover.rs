@@ -21,7 +21,7 @@ pub struct Knowledge {
     level: u32,
     /// Which of the task's lists holds what may block.
     list: u32,
-    /// Exchanges expected below the pair that was last asked about.
+    /// Packets of rays that a proof could have saved below the pair that was last asked about.
     asked_at: f32,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Prover<'a> {
     }
 
     /// What to ask about a pair that is about to be split, and whether to look for evidence first.
-    /// `expected` is how many exchanges are likely below it.
+    /// `expected` is how many packets of eight rays are likely to be cast below it.
     pub fn plan_before_split(
         &mut self,
         source: &Element,
