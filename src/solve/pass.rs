@@ -629,11 +629,14 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         };
         let mut segments = std::mem::take(&mut self.segments);
         segments.clear();
-        let recording = Recording {
-            test: self.pass.context.embree,
-            segments: &mut segments,
-        };
-        self.sample(recording, source, receiver, self.pass.config.rays, 0);
+        // Both sets that a technique without proofs might cast.
+        for round in 0..2 {
+            let recording = Recording {
+                test: self.pass.context.embree,
+                segments: &mut segments,
+            };
+            self.sample(recording, source, receiver, self.pass.config.rays, round);
+        }
         self.outcome
             .check
             .judge(&guarantees.scene, claim, &segments);

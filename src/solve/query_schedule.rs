@@ -207,3 +207,61 @@ impl QuerySchedule {
 fn size(expected: f32) -> usize {
     (expected.max(1.0).log2() as usize).min(SIZES - 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn evidence_rules_out_what_cannot_succeed() {
+        let mut schedule = QuerySchedule::new(Technique::Occlusion);
+        assert_eq!(
+            schedule.after_evidence(Evidence::Blocked, 1.0e3),
+            Queries::Occlusion
+        );
+        assert_eq!(
+            schedule.after_evidence(Evidence::Clear, 1.0e3),
+            Queries::Visibility
+        );
+        assert_eq!(
+            schedule.after_evidence(Evidence::Mixed, 1.0e3),
+            Queries::None
+        );
+        let mut schedule = QuerySchedule::new(Technique::Visibility);
+        assert_eq!(
+            schedule.after_evidence(Evidence::Blocked, 1.0e3),
+            Queries::None
+        );
+        let mut schedule = QuerySchedule::new(Technique::Blockers);
+        assert_eq!(
+            schedule.after_evidence(Evidence::Mixed, 1.0e3),
+            Queries::Shorten
+        );
+    }
+
+    #[test]
+    fn small_pairs_and_pairs_just_below_one_looked_at_are_passed_over() {
+        let mut schedule = QuerySchedule::new(Technique::Occlusion);
+        assert_eq!(schedule.before_split(7.0, f32::INFINITY), Queries::None);
+        assert_eq!(schedule.before_split(100.0, 399.0), Queries::None);
+        assert_eq!(schedule.before_split(100.0, 400.0), Queries::Probe);
+    }
+
+    #[test]
+    fn where_no_query_succeeds_they_all_but_cease() {
+        let mut schedule = QuerySchedule::new(Technique::Occlusion);
+        let mut asked = 0;
+        for _ in 0..10_000 {
+            if schedule.before_split(20.0, f32::INFINITY) == Queries::Probe {
+                asked += 1;
+                schedule.learn_visibility(20.0, false, 8);
+            }
+        }
+        assert!((10_000 / 66..10_000 / 40).contains(&asked), "{asked}");
+        // What succeeds is asked again.
+        for _ in 0..64 {
+            schedule.learn_visibility(20.0, true, 8);
+        }
+        assert_eq!(schedule.before_split(20.0, f32::INFINITY), Queries::Probe);
+    }
+}
