@@ -38,7 +38,7 @@ impl SampleSequence {
     }
 
     /// Points `index` to `index + 7`, coordinate by coordinate.
-    #[inline]
+    #[inline(always)]
     pub fn points(&self, index: u32) -> [[f32; 8]; 4] {
         let mut points = [[0.0; 8]; 4];
         for (d, coordinate) in points.iter_mut().enumerate() {

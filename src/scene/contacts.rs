@@ -109,9 +109,10 @@ impl Contacts {
         self.nodes[index].skip = self.nodes.len() as u32;
     }
 
-    /// True when some part of a side of `facet` is hidden.
-    pub fn touches(&self, facet: Facet) -> bool {
-        !self.range(facet).is_empty()
+    /// True when some part of a side of `facet` is hidden that lies in `bounds`.
+    pub fn touches(&self, facet: Facet, bounds: &Aabb) -> bool {
+        let range = self.range(facet);
+        !range.is_empty() && self.nodes[range.start].bounds.distance(*bounds) <= 0.0
     }
 
     /// True when `point`, on `facet`, is hidden by a solid that stands on it.

@@ -19,6 +19,7 @@ mod observer;
 mod oracle;
 mod ownership;
 mod pass;
+mod patch_split;
 mod prepared;
 mod prover;
 mod push_pull;

@@ -26,6 +26,7 @@ use crate::visibility::{
     AllClear, LEAST_COSINE, SampledVisibility, SegmentTest, Verdict, sample_visibility,
 };
 use glam::Vec3;
+use pulp::Arch;
 use rayon::prelude::*;
 
 /// What stays the same during a solve.
@@ -59,6 +60,7 @@ struct Pass<'a, const C: usize> {
     context: SolveContext<'a>,
     shooters: &'a [Shooter<C>],
     node_unshot: &'a [[f32; C]],
+    node_variance: &'a [f32],
     power_before: &'a [f64],
     owner_of_facet: &'a [u32],
     first_facets: &'a [u32],
@@ -69,6 +71,7 @@ struct Pass<'a, const C: usize> {
     key: u64,
     /// Power that all owners together may drop.
     drop_budget: f64,
+    arch: Arch,
 }
 
 /// What a pass did.
@@ -97,11 +100,15 @@ fn drop_share(pass: u32) -> f64 {
 /// Probe rays of a pair: one packet.
 const PROBE_RAYS: u32 = 8;
 
-/// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Most exchanges cast a second
-/// set of samples (1.75 sets on average in cornell, d and f).
+/// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
+/// set of samples.
 fn packets_of_exchange(rays: u32) -> f32 {
-    1.75 * rays.div_ceil(8) as f32
+    1.2 * rays.div_ceil(8) as f32
 }
+
+/// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
+/// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
+const MEASURED_ONE_IN: u64 = 4;
 
 /// Visits between two questions to the observer: a few hundred microseconds.
 const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
@@ -119,6 +126,7 @@ pub fn run_pass<const C: usize>(
         shooters,
         gatherers,
         node_unshot,
+        node_variance,
         power_before,
         owner_of_facet,
         first_facets,
@@ -127,6 +135,7 @@ pub fn run_pass<const C: usize>(
         context,
         shooters,
         node_unshot,
+        node_variance,
         power_before,
         owner_of_facet,
         first_facets,
@@ -140,6 +149,7 @@ pub fn run_pass<const C: usize>(
         pass,
         key: hash_u64(config.seed ^ hash_u64(u64::from(pass))),
         drop_budget: drop_share(pass) * emitted,
+        arch: Arch::new(),
     };
     context.observer.pass_started(pass, gatherers.len());
     // Each owner is one task; the tasks' outcomes are summed in order.
@@ -279,6 +289,15 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
+    /// Relative variance of a source's unshot radiosity.
+    fn variance(&self, source: &Source) -> f32 {
+        if source.element.is_triangle() {
+            self.pass.shooters[source.owner as usize].splits[source.slot as usize].variance
+        } else {
+            self.pass.node_variance[source.element.node.index()]
+        }
+    }
+
     fn walk(&mut self, source: &Source, receiver: &Receiver, known: Known) {
         let greatest = self.greatest(source);
         if greatest <= 0.0 || self.is_interrupted() {
@@ -412,7 +431,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
 
     fn split_source(&mut self, source: &Source, receiver: &Receiver, known: Known) {
         if let Shape::Triangle(corners) = source.element.shape {
-            let first = self.pass.shooters[source.owner as usize].children[source.slot as usize];
+            let first =
+                self.pass.shooters[source.owner as usize].splits[source.slot as usize].first;
             for which in 0..4 {
                 let child = Source {
                     element: source.element.triangle_child(corners, which),
@@ -479,6 +499,14 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         if unoccluded.is_zero() {
             return;
         }
+        if oracle.refines_source(
+            &source.element,
+            &receiver.element,
+            greatest,
+            self.variance(source),
+        ) {
+            return self.split(source, receiver, known, true);
+        }
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
             return self.split(source, receiver, known, false);
         }
@@ -510,7 +538,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             }
         };
         self.outcome.statistics.exchanges += 1;
-        if visibility > 0.0 {
+        // Below zero where a second set stands for others that the first overrated.
+        if visibility != 0.0 {
             let radiosity = self.radiosity(source).map(f64::from);
             let light = radiosity.map(|b| b * f64::from(visibility));
             self.deposit(receiver, unoccluded, light);
@@ -532,9 +561,15 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 return None;
             }
             // Samples that decide cannot measure as well: a slit that most sets of samples miss would pass light
-            // only where it is found and refined, and too little in the mean.
-            if sampled.rays > 0 {
-                sampled = self.sample_where_cheapest(source, &receiver.element, known, 1);
+            // only where it is found and refined, and too little in the mean. What a few second sets find instead
+            // stands for all (a control variate, so that the mean is right).
+            if sampled.rays > 0 && self.measures_again(source, &receiver.element) {
+                let again = self.sample_where_cheapest(source, &receiver.element, known, 1);
+                sampled.visibility +=
+                    MEASURED_ONE_IN as f32 * (again.visibility - sampled.visibility);
+                sampled.all_blocked &= again.all_blocked;
+                sampled.all_clear &= again.all_clear;
+                sampled.rays_blocked += again.rays_blocked;
             }
         }
         let statistics = &mut self.outcome.statistics;
@@ -546,6 +581,12 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             self.keep_blocked(&source.element, &receiver.element);
         }
         Some(sampled.visibility)
+    }
+
+    /// Whether an exchange whose first samples agree casts a second set, which then counts for all the others.
+    fn measures_again(&self, source: &Source, receiver: &Element) -> bool {
+        let key = exchange_key(self.pass.key.wrapping_add(2), &source.element, receiver);
+        hash_u64(key).is_multiple_of(MEASURED_ONE_IN)
     }
 
     fn keep_blocked(&mut self, source: &Element, receiver: &Element) {
@@ -602,7 +643,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         let is_open = |element: &Element| {
             let context = self.pass.context;
             let facet = context.hierarchy.facets[element.first_facet as usize];
-            !(element.is_triangle() && context.scene.contacts.touches(facet))
+            !(element.is_triangle() && context.scene.contacts.touches(facet, &element.bounds))
         };
         if is_open(&source.element)
             && is_open(receiver)
@@ -616,8 +657,11 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         if (first.all_clear || first.all_blocked)
             && first.rays > 0
             && self.refines_if_partial(source, receiver, greatest)
+            && self.measures_again(source, receiver)
         {
-            return self.sample(AllClear, source, receiver, rays, 1).visibility;
+            let again = self.sample(AllClear, source, receiver, rays, 1);
+            return first.visibility
+                + MEASURED_ONE_IN as f32 * (again.visibility - first.visibility);
         }
         first.visibility
     }
@@ -654,6 +698,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         let context = self.pass.context;
         let key = exchange_key(self.pass.key.wrapping_add(round), &source.element, receiver);
         sample_visibility(
+            self.pass.arch,
             test,
             &SourceSurface {
                 element: &source.element,

@@ -1,6 +1,7 @@
 //! After a pass: push what was gathered down to the leaves, reflect it, pull the new radiosity up
 //! (paper, section 4; Hanrahan et al. 1991).
 
+use super::patch_split::PatchSplit;
 use super::radiosity::{Gatherer, Light, Shooter};
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{FacetId, NodeId};
@@ -23,7 +24,9 @@ pub fn push_pull<const C: usize>(
     shooter: &mut Shooter<C>,
     scale: f64,
 ) {
-    shooter.children.clone_from(&gatherer.children);
+    shooter
+        .splits
+        .resize(gatherer.children.len(), PatchSplit::default());
     shooter.unshot.resize(gatherer.children.len(), [0.0; C]);
     push_nodes(hierarchy, facets, gatherer);
     for facet in 0..gatherer.facet_count {
@@ -100,6 +103,7 @@ fn reflect<const C: usize>(
             gatherer.total[at][c] += irradiance;
             shooter.unshot[at][c] = (reflectance[c] * irradiance) as f32;
         }
+        shooter.splits[at] = PatchSplit::default();
         return;
     }
     for which in 0..4 {
@@ -112,6 +116,9 @@ fn reflect<const C: usize>(
             .map(|k| shooter.unshot[k][c])
             .sum::<f32>()
     });
+    let parts = std::array::from_fn(|k| shooter.unshot[first + k]);
+    let variance = std::array::from_fn(|k| shooter.splits[first + k].variance);
+    shooter.splits[at] = PatchSplit::new(first as u32, parts, variance);
 }
 
 /// Corner values of child `which` of a linear function, numbered as `split_triangle` does.

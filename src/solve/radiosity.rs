@@ -5,6 +5,7 @@
 //! are the facets themselves, children of a patch are four in a row.
 
 use super::ownership::owner_cut;
+use super::patch_split::{PatchSplit, relative_variance};
 use super::solution::PatchPath;
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{FacetId, NodeId};
@@ -16,8 +17,8 @@ pub type Light<const C: usize> = [f64; C];
 /// What an owner's facets and patches have yet to shoot: read by every task, written between passes.
 #[derive(Clone, Debug, Default)]
 pub struct Shooter<const C: usize> {
-    /// Index of the first of a patch's four children; 0 for a leaf (0 is a facet, never a child).
-    pub children: Vec<u32>,
+    /// Children of each patch, and how its light is spread over them.
+    pub splits: Vec<PatchSplit>,
     /// Unshot radiosity, area-weighted mean over the patch.
     pub unshot: Vec<[f32; C]>,
 }
@@ -31,7 +32,7 @@ pub struct Gatherer<const C: usize> {
     pub first_facet: u32,
     /// Facets owned.
     pub facet_count: u32,
-    /// As in [`Shooter::children`], with the patches made in this pass.
+    /// Index of the first of a patch's four children, 0 for a leaf, with the patches made in this pass.
     pub children: Vec<u32>,
     /// Irradiance gathered in this pass by facets and patches at their own level: a linear function by
     /// its values at the three corners.
@@ -92,6 +93,8 @@ pub struct Radiosity<const C: usize> {
     pub gatherers: Vec<Gatherer<C>>,
     /// Unshot radiosity of every node, area-weighted mean.
     pub node_unshot: Vec<[f32; C]>,
+    /// Relative variance of the unshot radiosity over every node, all channels together.
+    pub node_variance: Vec<f32>,
     /// Sums of the unshot power, over all channels, of the facets before each facet; one longer.
     pub power_before: Vec<f64>,
     /// The owner of each facet.
@@ -111,7 +114,7 @@ impl<const C: usize> Radiosity<C> {
             let range = hierarchy.facet_range(root);
             owner_of_facet[range.clone()].fill(owner as u32);
             shooters.push(Shooter {
-                children: vec![0; range.len()],
+                splits: vec![PatchSplit::default(); range.len()],
                 unshot: range
                     .map(|f| emitted(FacetId::new(f)).map(|x| x as f32))
                     .collect(),
@@ -122,6 +125,7 @@ impl<const C: usize> Radiosity<C> {
             shooters,
             gatherers,
             node_unshot: vec![[0.0; C]; hierarchy.nodes.len()],
+            node_variance: vec![0.0; hierarchy.nodes.len()],
             power_before: vec![0.0; hierarchy.facets.len() + 1],
             owner_of_facet,
             first_facets: cut
@@ -140,6 +144,12 @@ impl<const C: usize> Radiosity<C> {
         self.shooters[owner].unshot[local as usize]
     }
 
+    fn facet_variance(&self, facet: FacetId) -> f32 {
+        let owner = self.owner_of_facet[facet.index()] as usize;
+        let local = facet.0 - self.first_facets[owner];
+        self.shooters[owner].splits[local as usize].variance
+    }
+
     /// Averages the facets' unshot radiosity up the hierarchy (paper: pull). Children stand behind
     /// their parents, so one walk from the back serves.
     pub fn pull_nodes(&mut self, hierarchy: &Hierarchy) {
@@ -153,6 +163,12 @@ impl<const C: usize> Radiosity<C> {
                     f64::from(hierarchy.shapes[a].area),
                     f64::from(hierarchy.shapes[b].area),
                 );
+                let sum = |light: [f32; C]| light.iter().sum::<f32>();
+                self.node_variance[index] = relative_variance(
+                    [area_a, area_b].map(|x| (x / (area_a + area_b)) as f32),
+                    [a, b].map(|k| sum(self.node_unshot[k])),
+                    [a, b].map(|k| self.node_variance[k]),
+                );
                 std::array::from_fn(|c| {
                     ((f64::from(self.node_unshot[a][c]) * area_a
                         + f64::from(self.node_unshot[b][c]) * area_b)
@@ -160,6 +176,7 @@ impl<const C: usize> Radiosity<C> {
                 })
             };
             if node.kind == NodeKind::Facet {
+                self.node_variance[index] = self.facet_variance(FacetId(node.first_facet));
                 let radiosity: f32 = self.node_unshot[index].iter().sum();
                 self.power_before[node.first_facet as usize + 1] =
                     f64::from(radiosity) * f64::from(hierarchy.shapes[index].area);
@@ -172,7 +189,10 @@ impl<const C: usize> Radiosity<C> {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        let per_patch = 2 * size_of::<u32>() + size_of::<[f32; C]>() + 4 * size_of::<Light<C>>();
+        let per_patch = size_of::<u32>()
+            + size_of::<PatchSplit>()
+            + size_of::<[f32; C]>()
+            + 4 * size_of::<Light<C>>();
         self.gatherers
             .iter()
             .map(|g| g.children.len() * per_patch + g.vectors.len() * size_of::<[DVec3; C]>())

@@ -4,8 +4,8 @@
 //! furniture), so a visibility averaged over a source's area would be too low for its light.
 
 use super::element::{Element, Shape};
+use super::patch_split::{BELOW_ONE, PatchSplit};
 use super::radiosity::Shooter;
-use super::solution::split_triangle;
 use crate::cluster::Hierarchy;
 use crate::scene::{Facet, Scene};
 use crate::visibility::{PointOctet, Surface};
@@ -26,12 +26,13 @@ pub struct ReceiverSurface<'a> {
 }
 
 impl Surface for ReceiverSurface<'_> {
+    #[inline(always)]
     fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
         let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
             let mut points = PointOctet::of_triangle(corners, normal, u, v);
             let facet = self.hierarchy.facets[self.element.first_facet as usize];
-            if self.scene.contacts.touches(facet) {
+            if self.scene.contacts.touches(facet, &self.element.bounds) {
                 for l in 0..8 {
                     let hidden = self.scene.contacts.is_hidden(facet, points.position(l));
                     points.swallowed |= u8::from(hidden) << l;
@@ -39,11 +40,23 @@ impl Surface for ReceiverSurface<'_> {
             }
             return points;
         }
-        let mut points = PointOctet::of_triangle([self.element.centroid; 3], normal, u, v);
+        self.cluster_points(u, v)
+    }
+}
+
+impl ReceiverSurface<'_> {
+    #[inline(never)]
+    fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+        let (centroid, normal) = (self.element.centroid, self.element.normal);
+        let mut points = PointOctet::of_triangle([centroid; 3], normal, u, v);
         for l in 0..8 {
             let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
             let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
-            points.set(l, corners, self.normals[facet], [rest, v[l]]);
+            let at = match rest + v[l] > 1.0 {
+                true => [1.0 - rest, 1.0 - v[l]],
+                false => [rest, v[l]],
+            };
+            points.set(l, corners, self.normals[facet], at);
             let facet = self.hierarchy.facets[facet];
             let hidden = self.scene.contacts.is_hidden(facet, points.position(l));
             points.swallowed |= u8::from(hidden) << l;
@@ -77,38 +90,49 @@ pub struct SourceSurface<'a, const C: usize> {
 }
 
 impl<const C: usize> Surface for SourceSurface<'_, C> {
+    #[inline(always)]
     fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
         let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
-            let mut points = PointOctet::of_triangle(corners, normal, u, v);
             let shooter = &self.shooters[self.owner as usize];
-            if shooter.children[self.slot as usize] != 0 {
-                for l in 0..8 {
-                    let at = (self.owner, self.slot);
-                    self.set_patch_point(&mut points, l, at, corners, normal, [u[l], v[l]]);
+            let mut points = match shooter.splits[self.slot as usize].is_even() {
+                true => PointOctet::of_triangle(corners, normal, u, v),
+                false => {
+                    let (mut along, mut across) = ([0.0; 8], [0.0; 8]);
+                    for l in 0..8 {
+                        [along[l], across[l]] = lit_point(&shooter.splits, self.slot, [u[l], v[l]]);
+                    }
+                    PointOctet::at(corners, normal, &along, &across)
                 }
-            }
+            };
             let facet = self.hierarchy.facets[self.element.first_facet as usize];
-            if self.scene.contacts.touches(facet) {
+            if self.scene.contacts.touches(facet, &self.element.bounds) {
                 (0..8).for_each(|l| self.hide(&mut points, l, facet));
             }
             return points;
         }
-        let mut points = PointOctet::of_triangle([self.element.centroid; 3], normal, u, v);
+        self.cluster_points(u, v)
+    }
+}
+
+impl<const C: usize> SourceSurface<'_, C> {
+    #[inline(never)]
+    fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+        let (centroid, normal) = (self.element.centroid, self.element.normal);
+        let mut points = PointOctet::of_triangle([centroid; 3], normal, u, v);
         for l in 0..8 {
             let (facet, rest) = choose_facet(self.element, self.power_before, u[l]);
             let owner = self.owner_of_facet[facet];
             let slot = facet as u32 - self.first_facets[owner as usize];
             let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
             let normal = self.normals[facet];
-            self.set_patch_point(&mut points, l, (owner, slot), corners, normal, [rest, v[l]]);
+            let at = lit_point(&self.shooters[owner as usize].splits, slot, [rest, v[l]]);
+            points.set(l, corners, normal, at);
             self.hide(&mut points, l, self.hierarchy.facets[facet]);
         }
         points
     }
-}
 
-impl<const C: usize> SourceSurface<'_, C> {
     /// Marks point `l` of `facet` where it is hidden. What a surface receives is what its open part receives, so
     /// that is where its light comes from; what it emits it emits everywhere.
     fn hide(&self, points: &mut PointOctet, l: usize, facet: Facet) {
@@ -121,38 +145,30 @@ impl<const C: usize> SourceSurface<'_, C> {
             points.swallowed |= 1 << l;
         }
     }
-
-    /// Puts a point of a frozen patch into lane `l`: down its split with `u`, by the children's
-    /// light.
-    fn set_patch_point(
-        &self,
-        points: &mut PointOctet,
-        l: usize,
-        (owner, slot): (u32, u32),
-        mut corners: [Vec3; 3],
-        normal: Vec3,
-        [mut u, v]: [f32; 2],
-    ) {
-        let shooter = &self.shooters[owner as usize];
-        let mut slot = slot as usize;
-        while shooter.children[slot] != 0 {
-            let first = shooter.children[slot] as usize;
-            let light: [f32; 4] = std::array::from_fn(|k| shooter.unshot[first + k].iter().sum());
-            let (mut which, mut rest) = (0, u * light.iter().sum::<f32>());
-            while which < 3 && rest >= light[which as usize] {
-                rest -= light[which as usize];
-                which += 1;
-            }
-            u = (rest / light[which as usize].max(f32::MIN_POSITIVE)).clamp(0.0, BELOW_ONE);
-            corners = split_triangle(corners, which);
-            slot = (shooter.children[slot] + which) as usize;
-        }
-        points.set(l, corners, normal, [u, v]);
-    }
 }
 
-/// The greatest f32 below 1.
-const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+/// A point of a frozen patch: down its split with `u`, by the children's light. In coordinates along the first two
+/// edges from the patch's first corner. Every child has the patch's edges, halved, the middle one turned about.
+#[inline(always)]
+fn lit_point(splits: &[PatchSplit], slot: u32, [mut u, v]: [f32; 2]) -> [f32; 2] {
+    let mut split = &splits[slot as usize];
+    let (mut along, mut across, mut scale) = (0.0_f32, 0.0_f32, 1.0_f32);
+    while !split.is_even() {
+        let (which, rest) = split.choose(u);
+        u = rest;
+        let half = 0.5 * scale;
+        along += if which & 1 == 1 { half } else { 0.0 };
+        across += if which & 2 == 2 { half } else { 0.0 };
+        scale = if which == 3 { -half } else { half };
+        split = &splits[(split.first + which) as usize];
+    }
+    let (u, v) = if u + v > 1.0 {
+        (1.0 - u, 1.0 - v)
+    } else {
+        (u, v)
+    };
+    [along + scale * u, across + scale * v]
+}
 
 /// Chooses a facet of a cluster in proportion to what `before` sums, and what is left of `u` inside it.
 fn choose_facet(element: &Element, before: &[f64], u: f32) -> (usize, f32) {

@@ -8,6 +8,7 @@ mod faults;
 mod full_visibility;
 mod occluder_tree;
 mod occlusion;
+mod sample_points;
 mod sampling;
 mod scene_tree;
 mod shaft;
@@ -27,9 +28,9 @@ pub use faults::Faults;
 pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
+pub use sample_points::{PointOctet, Surface};
 pub use sampling::{
-    AllClear, LEAST_COSINE, PointOctet, SampleOctet, SampledVisibility, SegmentTest, Surface,
-    sample_visibility,
+    AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, sample_visibility,
 };
 pub use scene_tree::SceneTree;
 pub use survivors::SurvivorList;

@@ -13,9 +13,11 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::blockers::{BlockerList, SegmentOctet};
+use super::sample_points::{PointOctet, Surface};
 use crate::embree::{CommittedScene, RayPacket8};
 use crate::math::SampleSequence;
 use glam::Vec3;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Eight sample segments as whoever tests them needs them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +50,7 @@ pub trait SegmentTest {
 
 /// Embree's answer.
 impl SegmentTest for &CommittedScene {
+    #[inline(always)]
     fn blocked8(&mut self, octet: &SampleOctet, active: u8) -> u8 {
         let segments = &octet.segments;
         let mut packet = RayPacket8 {
@@ -88,69 +91,6 @@ impl SegmentTest for AllClear {
     }
 }
 
-/// Eight points of an element, coordinate by coordinate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointOctet {
-    /// Normalised positions.
-    pub position: [[f32; 8]; 3],
-    /// Unit normals of their facets, on the facets' sides.
-    pub normal: [[f32; 8]; 3],
-    /// Bit per point where something touches the surface and swallows light that the element's mean counts on.
-    pub swallowed: u8,
-    /// Bit per point where something touches the surface and the element's mean light comes from elsewhere on it.
-    pub absent: u8,
-}
-
-impl PointOctet {
-    /// Eight points of one triangle with the given unit normal, uniform where `(u, v)` is uniform in the unit
-    /// square, which is folded along its diagonal.
-    #[inline]
-    pub fn of_triangle(corners: [Vec3; 3], normal: Vec3, u: &[f32; 8], v: &[f32; 8]) -> Self {
-        let [a, b, c] = corners.map(|p| p.to_array());
-        let mut position = [[0.0; 8]; 3];
-        for axis in 0..3 {
-            let (along, across) = (b[axis] - a[axis], c[axis] - a[axis]);
-            for l in 0..8 {
-                let fold = u[l] + v[l] > 1.0;
-                let u = if fold { 1.0 - u[l] } else { u[l] };
-                let v = if fold { 1.0 - v[l] } else { v[l] };
-                position[axis][l] = a[axis] + along * u + across * v;
-            }
-        }
-        Self {
-            position,
-            normal: normal.to_array().map(|n| [n; 8]),
-            swallowed: 0,
-            absent: 0,
-        }
-    }
-
-    /// The position of point `l`.
-    pub fn position(&self, l: usize) -> Vec3 {
-        Vec3::from_array(self.position.map(|axis| axis[l]))
-    }
-
-    /// Replaces lane `l` by a point of a triangle, as [`Self::of_triangle`] does.
-    pub fn set(&mut self, l: usize, corners: [Vec3; 3], normal: Vec3, [u, v]: [f32; 2]) {
-        let [a, b, c] = corners;
-        let (u, v) = match u + v > 1.0 {
-            true => (1.0 - u, 1.0 - v),
-            false => (u, v),
-        };
-        let position = a + (b - a) * u + (c - a) * v;
-        for axis in 0..3 {
-            self.position[axis][l] = position[axis];
-            self.normal[axis][l] = normal[axis];
-        }
-    }
-}
-
-/// An element that can be sampled: a receiver uniformly by area, a source by its light.
-pub trait Surface {
-    /// The points at eight `(u, v)` in [0,1)^2; uniform in gives that out.
-    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet;
-}
-
 /// What the samples of an exchange said.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampledVisibility {
@@ -178,71 +118,98 @@ pub const LEAST_COSINE: f32 = 1.0e-3;
 /// Samples the visibility between two elements with `rays` rays; `test` says which are blocked.
 ///
 /// `key` names the exchange: (receiver, source, pass, seed). `tau` is the depth below a surface
-/// within which nothing blocks.
+/// within which nothing blocks. `arch` is the instruction set to run with; it does not change the answer.
 pub fn sample_visibility(
-    mut test: impl SegmentTest,
+    arch: Arch,
+    test: impl SegmentTest,
     source: &impl Surface,
     receiver: &impl Surface,
     rays: u32,
     key: u64,
     tau: f32,
 ) -> SampledVisibility {
-    let sequence = SampleSequence::new(key);
-    let mut result = SampledVisibility::default();
-    let mut total_weight = 0.0f32;
-    let mut clear_weight = 0.0f32;
-    let mut swallowed = false;
-    for attempt in 0..RETRIES {
-        let mut index = attempt * rays;
-        let end = index + rays;
-        while index < end {
-            let lanes = (end - index).min(8);
-            let [u, v, s, t] = sequence.points(index);
-            let (from, to) = (source.points(&u, &v), receiver.points(&s, &t));
-            let mut trimmed = trim(&from, &to, tau, lanes);
-            trimmed.forget(from.absent | to.absent);
-            for weight in trimmed.weight {
-                total_weight += weight;
-            }
-            swallowed |= trimmed.forget(from.swallowed | to.swallowed);
-            let octet = SampleOctet {
-                segments: SegmentOctet {
-                    from: from.position,
-                    to: to.position,
-                },
-                near: trimmed.near,
-                far: trimmed.far,
-            };
-            let blocked = match trimmed.active {
-                0 => 0,
-                active => test.blocked8(&octet, active),
-            };
-            result.rays += trimmed.active.count_ones();
-            result.rays_blocked += blocked.count_ones();
-            for l in 0..8 {
-                if blocked & (1 << l) == 0 {
-                    clear_weight += trimmed.weight[l];
+    arch.dispatch(Sampling {
+        test,
+        source,
+        receiver,
+        rays,
+        key,
+        tau,
+    })
+}
+
+/// One exchange being sampled.
+struct Sampling<'a, T, S, R> {
+    test: T,
+    source: &'a S,
+    receiver: &'a R,
+    rays: u32,
+    key: u64,
+    tau: f32,
+}
+
+impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> {
+    type Output = SampledVisibility;
+
+    #[inline(always)]
+    fn with_simd<I: Simd>(mut self, _: I) -> SampledVisibility {
+        let sequence = SampleSequence::new(self.key);
+        let mut result = SampledVisibility::default();
+        let mut total_weight = 0.0f32;
+        let mut clear_weight = 0.0f32;
+        let mut swallowed = false;
+        for attempt in 0..RETRIES {
+            let mut index = attempt * self.rays;
+            let end = index + self.rays;
+            while index < end {
+                let lanes = (end - index).min(8);
+                let [u, v, s, t] = sequence.points(index);
+                let (from, to) = (self.source.points(&u, &v), self.receiver.points(&s, &t));
+                let mut trimmed = trim(&from, &to, self.tau, lanes);
+                trimmed.forget(from.absent | to.absent);
+                for weight in trimmed.weight {
+                    total_weight += weight;
                 }
+                swallowed |= trimmed.forget(from.swallowed | to.swallowed);
+                let octet = SampleOctet {
+                    segments: SegmentOctet {
+                        from: from.position,
+                        to: to.position,
+                    },
+                    near: trimmed.near,
+                    far: trimmed.far,
+                };
+                let blocked = match trimmed.active {
+                    0 => 0,
+                    active => self.test.blocked8(&octet, active),
+                };
+                result.rays += trimmed.active.count_ones();
+                result.rays_blocked += blocked.count_ones();
+                for l in 0..8 {
+                    if blocked & (1 << l) == 0 {
+                        clear_weight += trimmed.weight[l];
+                    }
+                }
+                index += lanes;
             }
-            index += lanes;
+            if total_weight > 0.0 {
+                break;
+            }
         }
-        if total_weight > 0.0 {
-            break;
-        }
+        result.all_blocked = clear_weight == 0.0;
+        result.all_clear = total_weight > 0.0 && result.rays_blocked == 0 && !swallowed;
+        result.visibility = if clear_weight == 0.0 {
+            // Clear or not: all that can be seen of the source is dark.
+            0.0
+        } else if result.all_clear {
+            1.0
+        } else if total_weight > 0.0 {
+            clear_weight / total_weight
+        } else {
+            0.0
+        };
+        result
     }
-    result.all_blocked = clear_weight == 0.0;
-    result.all_clear = total_weight > 0.0 && result.rays_blocked == 0 && !swallowed;
-    result.visibility = if clear_weight == 0.0 {
-        // Clear or not: all that can be seen of the source is dark.
-        0.0
-    } else if result.all_clear {
-        1.0
-    } else if total_weight > 0.0 {
-        clear_weight / total_weight
-    } else {
-        0.0
-    };
-    result
 }
 
 /// Eight sample segments, trimmed at both ends.
@@ -257,6 +224,7 @@ struct Trimmed {
 
 impl Trimmed {
     /// Takes the light of `lanes` away; true where they carried some.
+    #[inline(always)]
     fn forget(&mut self, lanes: u8) -> bool {
         let mut carried = false;
         if lanes != 0 {
@@ -273,7 +241,7 @@ impl Trimmed {
 }
 
 /// The rays from `from` (parameter 0) to `to` (parameter 1) in the first `lanes` lanes.
-#[inline]
+#[inline(always)]
 fn trim(from: &PointOctet, to: &PointOctet, tau: f32, lanes: u32) -> Trimmed {
     let mut trimmed = Trimmed {
         near: [0.0; 8],

@@ -1,0 +1,72 @@
+//! Eight points of an element: where sample segments begin and end.
+
+// Lanes of several arrays run in step: an index says so, and is what vectorises.
+#![allow(clippy::needless_range_loop)]
+
+use glam::Vec3;
+
+/// Eight points of an element, coordinate by coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointOctet {
+    /// Normalised positions.
+    pub position: [[f32; 8]; 3],
+    /// Unit normals of their facets, on the facets' sides.
+    pub normal: [[f32; 8]; 3],
+    /// Bit per point where something touches the surface and swallows light that the element's mean counts on.
+    pub swallowed: u8,
+    /// Bit per point where something touches the surface and the element's mean light comes from elsewhere on it.
+    pub absent: u8,
+}
+
+impl PointOctet {
+    /// Eight points of one triangle with the given unit normal, uniform where `(u, v)` is uniform in the unit
+    /// square, which is folded along its diagonal.
+    #[inline(always)]
+    pub fn of_triangle(corners: [Vec3; 3], normal: Vec3, u: &[f32; 8], v: &[f32; 8]) -> Self {
+        let (mut along, mut across) = (*u, *v);
+        for l in 0..8 {
+            let fold = u[l] + v[l] > 1.0;
+            along[l] = if fold { 1.0 - u[l] } else { u[l] };
+            across[l] = if fold { 1.0 - v[l] } else { v[l] };
+        }
+        Self::at(corners, normal, &along, &across)
+    }
+
+    /// Eight points `a + (b - a) along + (c - a) across` of a plane with the given unit normal.
+    #[inline(always)]
+    pub fn at([a, b, c]: [Vec3; 3], normal: Vec3, along: &[f32; 8], across: &[f32; 8]) -> Self {
+        let mut position = [[0.0; 8]; 3];
+        for axis in 0..3 {
+            let (e, f) = (b[axis] - a[axis], c[axis] - a[axis]);
+            for l in 0..8 {
+                position[axis][l] = a[axis] + e * along[l] + f * across[l];
+            }
+        }
+        Self {
+            position,
+            normal: normal.to_array().map(|n| [n; 8]),
+            swallowed: 0,
+            absent: 0,
+        }
+    }
+
+    /// The position of point `l`.
+    pub fn position(&self, l: usize) -> Vec3 {
+        Vec3::from_array(self.position.map(|axis| axis[l]))
+    }
+
+    /// Replaces lane `l` by a point of another plane, as [`Self::at`] does.
+    pub fn set(&mut self, l: usize, [a, b, c]: [Vec3; 3], normal: Vec3, [along, across]: [f32; 2]) {
+        let position = a + (b - a) * along + (c - a) * across;
+        for axis in 0..3 {
+            self.position[axis][l] = position[axis];
+            self.normal[axis][l] = normal[axis];
+        }
+    }
+}
+
+/// An element that can be sampled: a receiver uniformly by area, a source by its light.
+pub trait Surface {
+    /// The points at eight `(u, v)` in [0,1)^2; uniform in gives that out.
+    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet;
+}
