@@ -4,6 +4,7 @@ use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{
     OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
 };
+use super::sweep_args::SweepCommand;
 use super::typed_number::parse_finite;
 use crate::experiment::AuditConfig;
 use clap::{Parser, Subcommand};
@@ -46,6 +47,8 @@ pub enum Command {
     Bench(BenchCommand),
     /// Techniques side by side: the paper's Table 1.
     Compare(CompareCommand),
+    /// Speed against accuracy: solve a scene at many settings, each compared with a reference.
+    Sweep(SweepCommand),
     /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
     Occluders(OccludersCommand),
     /// Check the guarantees of a solve: replay its proofs in exact arithmetic, attack them with rays.

@@ -156,7 +156,8 @@ fn settings_for(
     config: &SolveConfig,
     table: Option<TableSettings>,
 ) -> SolveConfig {
-    let Some(table) = table else {
+    // A preset that is asked for is the reader's word, not the table's.
+    let Some(table) = table.filter(|_| command.solve.quality.is_none()) else {
         return config.clone();
     };
     SolveConfig {

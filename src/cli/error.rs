@@ -1,7 +1,7 @@
 //! Everything that can go wrong on the command line, and its exit code.
 
 use crate::embree::EmbreeError;
-use crate::experiment::AuditError;
+use crate::experiment::{AuditError, SweepError, TooManyPoints};
 use crate::output::{CameraError, ComparisonError, OutputError};
 use crate::reference::{NothingToCompare, ReferenceError};
 use crate::scene::LoadError;
@@ -71,6 +71,24 @@ impl From<AuditError> for CliError {
             AuditError::Solve(error) => Self::Solve(error),
             AuditError::Interrupted => Self::Interrupted,
         }
+    }
+}
+
+impl From<SweepError> for CliError {
+    fn from(error: SweepError) -> Self {
+        match error {
+            SweepError::Config(error) => Self::Config(error),
+            SweepError::Solve(SolveError::Interrupted { .. }) => Self::Interrupted,
+            SweepError::Solve(error) => Self::Solve(error),
+            SweepError::NothingToCompare(error) => Self::NothingToCompare(error),
+            error @ SweepError::NotRepeatable { .. } => Self::Argument(error.to_string()),
+        }
+    }
+}
+
+impl From<TooManyPoints> for CliError {
+    fn from(error: TooManyPoints) -> Self {
+        Self::Argument(error.to_string())
     }
 }
 

@@ -11,6 +11,7 @@ mod generate_command;
 mod interrupt;
 mod occluders_command;
 mod progress;
+mod quality;
 mod reference_args;
 mod reference_command;
 mod reference_progress;
@@ -21,6 +22,9 @@ mod session;
 mod solve_args;
 mod solve_command;
 mod summary;
+mod sweep_args;
+mod sweep_command;
+mod sweep_progress;
 mod typed_number;
 mod view_command;
 

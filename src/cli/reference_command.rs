@@ -5,10 +5,12 @@ use super::reference_args::ReferenceCommand;
 use super::reference_progress::ReferenceProgress;
 use super::scene_source::load_scene;
 use super::session::Session;
+use super::solve_args::SceneArgs;
 use super::solve_command::with_threads;
 use crate::embree::DeviceConfig;
 use crate::output::{ReferenceMeta, mean_radiosity, write_reference};
-use crate::reference::{ReferenceConfig, ReferenceError, TracedScene, measure};
+use crate::reference::{Reference, ReferenceConfig, ReferenceError, TracedScene, measure};
+use crate::scene::Scene;
 use crate::solve::SolveConfig;
 use clap::ValueEnum;
 use std::sync::Arc;
@@ -32,9 +34,23 @@ fn measure_and_write(
     command: &ReferenceCommand,
     config: &ReferenceConfig,
 ) -> Result<(), CliError> {
+    let scene = load_scene(&command.scene)?;
+    let (meta, reference) = measure_scene(session, scene, &command.scene, config)?;
+    write_reference(&command.out, &meta, &reference, &session.interrupted)?;
+    session.say(format_args!("wrote {}", command.out.display()));
+    Ok(())
+}
+
+/// Measures a scene with the sides that `arguments` ask for, and says how well it is known.
+pub fn measure_scene(
+    session: &Session,
+    scene: Scene,
+    arguments: &SceneArgs,
+    config: &ReferenceConfig,
+) -> Result<(ReferenceMeta, Reference), CliError> {
     let traced = TracedScene::new(
-        load_scene(&command.scene)?,
-        command.scene.sides_mode(),
+        scene,
+        arguments.sides_mode(),
         // The sides of a solve, whatever the seed of the paths.
         SolveConfig::default().seed,
         &DeviceConfig::default(),
@@ -48,7 +64,7 @@ fn measure_and_write(
     } else {
         0.0
     };
-    let sides = command.scene.sides.to_possible_value();
+    let sides = arguments.sides.to_possible_value();
     let meta = ReferenceMeta {
         format: ReferenceMeta::FORMAT,
         certilux: env!("CARGO_PKG_VERSION").to_owned(),
@@ -69,7 +85,6 @@ fn measure_and_write(
         mean_stderr: stderr,
         mean_stderr_relative: relative,
     };
-    write_reference(&command.out, &meta, &reference, &session.interrupted)?;
     session.say(format_args!(
         "{}: {} faces and sides, {} paths, {} rays, {} round(s), {:.2} s",
         meta.scene,
@@ -88,6 +103,5 @@ fn measure_and_write(
             "; time was up before the asked error was reached"
         }
     ));
-    session.say(format_args!("wrote {}", command.out.display()));
-    Ok(())
+    Ok((meta, reference))
 }

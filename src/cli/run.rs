@@ -5,7 +5,8 @@ use super::error::CliError;
 use super::session::Session;
 use super::{
     audit_command, bench_command, clusters_command, compare_command, error_command,
-    generate_command, interrupt, occluders_command, reference_command, solve_command, view_command,
+    generate_command, interrupt, occluders_command, reference_command, solve_command,
+    sweep_command, view_command,
 };
 use clap::Parser;
 use std::ffi::OsString;
@@ -37,6 +38,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Reference(command) => reference_command::run(&session, &command),
         Command::Error(command) => error_command::run(&session, &command),
         Command::Audit(command) => audit_command::run(&session, &command),
+        Command::Sweep(command) => sweep_command::run(&session, &command),
         Command::Generate(command) => generate_command::run(&session, &command),
     }
 }

@@ -1,5 +1,6 @@
 //! Flags of every command that reads a scene or solves one.
 
+use super::quality::Quality;
 use crate::occluder::OccluderConfig;
 use crate::scene::{LoadConfig, SidesMode};
 use crate::solve::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
@@ -90,7 +91,7 @@ impl From<TechniqueArg> for Technique {
 }
 
 /// `--stride`
-fn parse_stride(text: &str) -> Result<Stride, String> {
+pub fn parse_stride(text: &str) -> Result<Stride, String> {
     match text {
         "auto" => Ok(Stride::Auto),
         _ => match text.parse() {
@@ -114,14 +115,14 @@ pub struct OccluderArgs {
     pub flatness: f64,
 }
 
-fn parse_share(text: &str) -> Result<f64, String> {
+pub fn parse_share(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
         _ => Err("a positive finite number is needed".to_owned()),
     }
 }
 
-fn parse_angle(text: &str) -> Result<f64, String> {
+pub fn parse_angle(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if (0.0..=30.0).contains(&x) => Ok(x),
         _ => Err("an angle from 0 to 30 degrees is needed".to_owned()),
@@ -151,9 +152,22 @@ pub enum NormaliseArg {
     Off,
 }
 
+impl From<NormaliseArg> for Normalise {
+    fn from(normalise: NormaliseArg) -> Self {
+        match normalise {
+            NormaliseArg::Auto => Self::Auto,
+            NormaliseArg::On => Self::On,
+            NormaliseArg::Off => Self::Off,
+        }
+    }
+}
+
 /// How to solve.
 #[derive(Clone, Debug, Args)]
 pub struct SolveArgs {
+    /// A preset of --epsilon, --rays and --converge; flags given beside it win [default: normal].
+    #[arg(long, value_enum)]
+    pub quality: Option<Quality>,
     /// How visibility is decided.
     #[arg(long, value_enum, default_value_t = TechniqueArg::Occlusion)]
     pub technique: TechniqueArg,
@@ -202,7 +216,7 @@ impl SolveArgs {
     /// # Errors
     /// A setting out of range, named by its flag.
     pub fn config(&self) -> Result<SolveConfig, ConfigError> {
-        let default = SolveConfig::default();
+        let default = self.quality.unwrap_or_default().config();
         let config = SolveConfig {
             technique: self.technique.into(),
             epsilon: self.epsilon.unwrap_or(default.epsilon),
@@ -215,11 +229,7 @@ impl SolveArgs {
             },
             min_area: self.min_area,
             seed: self.seed,
-            normalise: match self.normalise {
-                NormaliseArg::Auto => Normalise::Auto,
-                NormaliseArg::On => Normalise::On,
-                NormaliseArg::Off => Normalise::Off,
-            },
+            normalise: self.normalise.into(),
             stride: self.stride,
             check_claims: self.check_claims,
             ..default

@@ -3,6 +3,7 @@
 use super::args::SolveCommand;
 use super::error::CliError;
 use super::progress::Progress;
+use super::quality::Quality;
 use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
 use super::scene_source::load_scene;
 use super::session::Session;
@@ -11,7 +12,7 @@ use crate::embree::DeviceConfig;
 use crate::output::{
     HierarchyBlock, SceneBlock, SecondsBlock, SolvedMesh, Staging, StatsFile, ViewConfig, write_ply,
 };
-use crate::solve::{ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, solve};
+use crate::solve::{ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, solve};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -83,7 +84,13 @@ fn solve_and_write(
         }
     }
     let stats_path = staging.file("stats.json")?;
-    let mut stats = stats_file(session, config, &prepared, &solved);
+    let mut stats = stats_file(
+        session,
+        config,
+        command.solve.quality.unwrap_or_default(),
+        &prepared,
+        &solved,
+    );
     // With the black face of each polygon that no light reaches.
     stats.hierarchy.leaves = mesh.faces.len();
     stats.seconds = SecondsBlock {
@@ -125,6 +132,7 @@ fn report_check(session: &Session, check: &ClaimCheck) -> Result<(), CliError> {
 fn stats_file(
     session: &Session,
     config: &SolveConfig,
+    quality: Quality,
     prepared: &PreparedScene,
     solved: &Solved,
 ) -> StatsFile {
@@ -143,6 +151,11 @@ fn stats_file(
         technique: config.technique.name().to_owned(),
         epsilon: config.epsilon,
         rays_per_exchange: config.rays,
+        quality: quality.name().to_owned(),
+        converge: match config.stop {
+            Stop::Converged(x) => Some(x),
+            Stop::Passes(_) => None,
+        },
         scene,
         hierarchy: HierarchyBlock {
             face_clusters: count(crate::cluster::NodeKind::FaceCluster),

@@ -16,3 +16,11 @@ pub fn parse_bound(text: &str) -> Result<f64, String> {
         _ => Err("zero or a positive number is needed".to_owned()),
     }
 }
+
+/// A positive finite number.
+pub fn parse_positive(text: &str) -> Result<f64, String> {
+    match parse_finite(text)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("a positive number is needed".to_owned()),
+    }
+}

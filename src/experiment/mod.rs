@@ -1,4 +1,5 @@
-//! Experiments on the engine: the audit of its guarantees, and what they detect.
+//! Experiments on the engine: the audit of its guarantees and what they detect, techniques side by side, speed against
+//! accuracy.
 
 mod audit;
 #[cfg(test)]
@@ -9,11 +10,15 @@ mod detection;
 mod dice;
 mod element_points;
 mod flat_polygon;
+mod pareto;
 mod polygon_boxes;
+mod processor_time;
 mod ray_attack;
 mod regression;
 mod shaft_replay;
 mod surface_chain;
+mod sweep;
+mod sweep_settings;
 mod table_one;
 
 pub use audit::{AuditConfig, AuditError, AuditReport, Flaw, audit};
@@ -21,9 +26,15 @@ pub use comparison::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, Times, compare, summarise,
 };
 pub use detection::{Detection, DetectionConfig, detection};
+pub use pareto::pareto_front;
+pub use processor_time::processor_seconds;
 pub use regression::{
     Baseline, BaselineCounts, BaselineKey, BaselineRow, SuiteCase, regressions, suite,
 };
+pub use sweep::{
+    Sweep, SweepError, SweepOutcome, SweepRow, SweepTiming, error_at_cost, sweep_fronts,
+};
+pub use sweep_settings::{MAX_POINTS, SweepLists, SweepSettings, TooManyPoints, stride_name};
 pub use table_one::{
     PaperRow, PaperShares, TableSettings, paper_row, paper_shares, table_settings,
 };

@@ -63,6 +63,14 @@ pub enum OutputError {
         /// What is wrong, with the place.
         reason: String,
     },
+    /// Not the rows of an earlier sweep, or of another one.
+    #[error("cannot go on from {}: {reason}", path.display())]
+    NotASweep {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// An image encoder's complaint that is not the operating system's.
     #[error("cannot encode {}: {reason}", path.display())]
     Encoding {

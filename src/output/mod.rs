@@ -26,6 +26,8 @@ mod smoothing;
 mod solved_mesh;
 mod staging;
 mod stats_file;
+mod sweep_plot;
+mod sweep_table;
 mod tonemap;
 mod view;
 #[cfg(test)]
@@ -49,5 +51,9 @@ pub use reference_file::{
 pub use solved_mesh::{SolvedFace, SolvedMesh};
 pub use staging::Staging;
 pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json, write_text};
+pub use sweep_plot::{SweepCost, write_sweep_plot};
+pub use sweep_table::{
+    DEFAULTS, NamedSettings, SweepKey, SweepMeta, read_sweep, sweep_csv, write_sweep,
+};
 pub use tonemap::ToneMap;
 pub use view::{Shading, View, ViewConfig};

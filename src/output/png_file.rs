@@ -29,6 +29,35 @@ pub fn write_png(
             [r, g, b, (255.0 * alpha + 0.5) as u8]
         })
         .collect();
+    write(
+        path,
+        picture.size,
+        png::ColorType::Rgba,
+        &bytes,
+        interrupted,
+    )
+}
+
+/// Writes 8-bit sRGB pixels, three bytes each, row by row from the top, whole or not at all.
+///
+/// # Errors
+/// As [`write_png`].
+pub(super) fn write_rgb_png(
+    path: &Path,
+    size: [u32; 2],
+    pixels: &[u8],
+    interrupted: &AtomicBool,
+) -> Result<(), OutputError> {
+    write(path, size, png::ColorType::Rgb, pixels, interrupted)
+}
+
+fn write(
+    path: &Path,
+    size: [u32; 2],
+    colour: png::ColorType,
+    bytes: &[u8],
+    interrupted: &AtomicBool,
+) -> Result<(), OutputError> {
     let failed = |e: png::EncodingError| match e {
         png::EncodingError::IoError(e) => OutputError::io("write", path, e),
         other => OutputError::Encoding {
@@ -37,12 +66,12 @@ pub fn write_png(
         },
     };
     write_atomically(path, interrupted, |file| {
-        let mut encoder = png::Encoder::new(file, picture.size[0], picture.size[1]);
-        encoder.set_color(png::ColorType::Rgba);
+        let mut encoder = png::Encoder::new(file, size[0], size[1]);
+        encoder.set_color(colour);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         let mut writer = encoder.write_header().map_err(failed)?;
-        writer.write_image_data(&bytes).map_err(failed)?;
+        writer.write_image_data(bytes).map_err(failed)?;
         writer.finish().map_err(failed)
     })
 }

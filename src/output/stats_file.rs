@@ -33,6 +33,11 @@ pub struct StatsFile {
     pub epsilon: f64,
     /// Rays of a sampled exchange.
     pub rays_per_exchange: u32,
+    /// The preset that gave what no flag did.
+    pub quality: String,
+    /// The unshot fraction at which the solve was to stop; absent where passes were counted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub converge: Option<f64>,
     /// The input.
     pub scene: SceneBlock,
     /// What was built over it.
@@ -229,6 +234,8 @@ mod tests {
             technique: "normal".to_owned(),
             epsilon: 1e-7,
             rays_per_exchange: 8,
+            quality: "normal".to_owned(),
+            converge: Some(1e-3),
             scene: SceneBlock::new(&room),
             hierarchy: HierarchyBlock::default(),
             passes: vec![PassStatistics::default(); 2],

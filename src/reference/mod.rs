@@ -9,6 +9,7 @@ mod path_tracer;
 mod plan;
 mod random;
 mod solution_error;
+mod solution_lights;
 mod source_side;
 mod traced_scene;
 mod weighted_choice;
@@ -24,4 +25,5 @@ pub use observer::{ReferenceObserver, SilentReference};
 pub use solution_error::{
     FaceError, NothingToCompare, SolutionError, SolvedLight, SolvedLights, TrueFace, solution_error,
 };
+pub use solution_lights::solution_lights;
 pub use traced_scene::TracedScene;

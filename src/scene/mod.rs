@@ -8,6 +8,7 @@ mod convex;
 mod degenerate;
 mod error;
 mod facet;
+mod fingerprint;
 mod flat;
 pub mod generate;
 mod load;

@@ -1,9 +1,9 @@
 //! What a solve is asked to do, with its defaults.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How visibility between the two ends of an exchange is decided (paper, section 6.1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Technique {
     /// Rays only.
@@ -92,7 +92,7 @@ pub struct SolveConfig {
 
 /// Row normalisation: in a closed scene the form factors of a row sum to one, and an error eta of
 /// a row becomes eta rho / (1 - rho) in radiosity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Normalise {
     /// On in closed scenes with a reflectance of at least [`SolveConfig::NORMALISE_FROM`].

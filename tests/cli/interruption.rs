@@ -74,3 +74,33 @@ fn a_stopped_measurement_leaves_the_earlier_one() {
     assert_eq!(folder.names("."), ["ref.json"]);
     assert_eq!(fs::read(folder.path("ref.json")).unwrap(), b"earlier");
 }
+
+#[test]
+fn a_stopped_sweep_keeps_what_was_solved_and_goes_on() {
+    let folder = Folder::new();
+    let sweep = "sweep builtin:cornell --out results --reference-seconds 0.5 --technique normal --epsilon 1e-3,3e-8 --rays 8 \
+                 --gradient 5e-3 --min-area 1e-6 --stride auto --occluders 8 --occluder-size 1e-4 --flatness 1 \
+                 --converge 1e-2 --repeat 1";
+    // The first row takes a moment, the second minutes.
+    stopped(&folder, sweep, Signal::INT, Duration::from_secs(6))
+        .ends_with(130, "interrupted")
+        .says(&["1 of 2 solves", "--resume"]);
+    assert_eq!(
+        folder.names("results"),
+        ["reference.json", "sweep.csv", "sweep.json"]
+    );
+    let kept = fs::read_to_string(folder.path("results/sweep.csv")).unwrap();
+    assert_eq!(kept.lines().count(), 2);
+    let rest = sweep.replace("3e-8", "2e-3");
+    folder
+        .line(&format!("{rest} --resume"))
+        .ends_with(0, "resumed");
+    let resumed = fs::read_to_string(folder.path("results/sweep.csv")).unwrap();
+    assert_eq!(resumed.lines().count(), 3);
+    // All but the last columns: what stands on the front may change.
+    let row = |text: &str| {
+        let line = text.lines().nth(1).unwrap();
+        line.rsplitn(3, ',').last().unwrap().to_owned()
+    };
+    assert_eq!(row(&kept), row(&resumed));
+}

@@ -11,4 +11,5 @@ mod messages;
 mod other_commands;
 mod references;
 mod results;
+mod sweeps;
 mod unwritable;
