@@ -175,14 +175,14 @@ fn solve_all(
     let progress = SweepProgress::new(session.quiet, Arc::clone(&session.interrupted), solves);
     while let Some(index) = sweep.next(command.repeats()) {
         progress.begins(&sweep.rows[index].settings);
-        match sweep.run(index, &progress) {
-            Ok(()) => table.write(&sweep.rows).or_else(|error| match error {
+        let run = sweep.run(index, &progress).map_err(CliError::from);
+        run.and_then(|()| {
+            table.write(&sweep.rows).map_err(|error| match error {
                 // The solve stays unwritten, the table before it stands.
-                CliError::Output(OutputError::Interrupted { .. }) => Err(CliError::Interrupted),
-                error => Err(error),
-            }),
-            Err(error) => Err(error.into()),
-        }
+                CliError::Output(OutputError::Interrupted { .. }) => CliError::Interrupted,
+                error => error,
+            })
+        })
         .inspect_err(|error| {
             if matches!(error, CliError::Interrupted) {
                 let done = solves - sweep.left(command.repeats());

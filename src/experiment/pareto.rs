@@ -7,8 +7,12 @@ pub fn pareto_front(points: &[[f64; 2]]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len())
         .filter(|&i| points[i].iter().all(|x| x.is_finite()))
         .collect();
-    let compare = |a: [f64; 2], b: [f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
-    order.sort_by(|&i, &j| compare(points[i], points[j]));
+    // Adding zero makes the two zeros one, which the total order tells apart.
+    let compare = |i: usize, j: usize| {
+        let [a, b] = [i, j].map(|k| points[k].map(|x| x + 0.0));
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    };
+    order.sort_by(|&i, &j| compare(i, j));
     let mut front = vec![false; points.len()];
     let mut last: Option<[f64; 2]> = None;
     for i in order {

@@ -196,6 +196,8 @@ impl<'a> Plot<'a> {
             .axis_desc_style((FONT, 19))
             .x_desc(self.across)
             .y_desc("relative RMS error, %")
+            .x_labels(16)
+            .y_labels(12)
             .x_label_formatter(&|x| label(*x))
             .y_label_formatter(&|y| label(*y))
             .draw()?;
