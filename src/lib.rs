@@ -24,4 +24,6 @@ pub mod experiment;
 
 pub mod output;
 
+pub mod job;
+
 pub mod cli;

@@ -1,5 +1,6 @@
 //! The command line as typed.
 
+use super::batch_args::BatchCommand;
 use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{
     OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
@@ -23,6 +24,12 @@ pub struct Cli {
     /// No progress and no summary; errors and warnings still go to standard error.
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Messages on standard error as JSON, one object a line, with every pass; RUST_LOG chooses what (default: info).
+    #[arg(long, global = true)]
+    pub json_logs: bool,
+    /// Ignore certilux.toml and variables such as CERTILUX_EPSILON.
+    #[arg(long, global = true)]
+    pub no_config: bool,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
@@ -33,6 +40,8 @@ pub struct Cli {
 pub enum Command {
     /// Solve a scene: radiosity on every face, its picture and its numbers.
     Solve(SolveCommand),
+    /// Run many solves from a list, side by side; skip what is done, go on with what was cut short.
+    Batch(BatchCommand),
     /// Render a solved folder from any place.
     View(ViewCommand),
     /// Measure the radiosity of every face by path tracing, with standard errors.
@@ -53,13 +62,40 @@ pub enum Command {
     Occluders(OccludersCommand),
     /// Check the guarantees of a solve: replay its proofs in exact arithmetic, attack them with rays.
     Audit(AuditCommand),
+    /// Print the completions of a shell.
+    Completions(CompletionsCommand),
+    /// Write the manual pages.
+    Man(ManCommand),
+}
+
+/// `certilux completions`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "bash: certilux completions bash > ~/.local/share/bash-completion/completions/certilux\n\
+                  zsh:  certilux completions zsh > DIR/_certilux, with DIR in fpath\n\
+                  fish: certilux completions fish > ~/.config/fish/completions/certilux.fish"
+)]
+pub struct CompletionsCommand {
+    /// The shell.
+    #[arg(value_name = "SHELL", value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+/// `certilux man`
+#[derive(Debug, clap::Args)]
+#[command(after_help = "To read them:  certilux man --out man1  &&  man -l man1/certilux-solve.1")]
+pub struct ManCommand {
+    /// Folder for certilux.1 and a page a command; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 /// `certilux solve`
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Writes into DIR: solution.ply (radiosity and irradiance of every leaf patch), stats.json (counts, times, \
-                  where the power went), view.exr and view.png.\n\n\
+                  where the power went), view.exr and view.png. While it works, solve.checkpoint holds the state after the last pass: \
+                  the same command with --resume goes on from there, to the same bytes.\n\n\
                   Speed against accuracy: --epsilon first, then --rays. --passes 1 is direct light alone."
 )]
 pub struct SolveCommand {
@@ -75,6 +111,12 @@ pub struct SolveCommand {
     /// Leave out view.exr and view.png.
     #[arg(long)]
     pub no_view: bool,
+    /// Go on from the checkpoint in DIR, if there is one; do nothing if DIR holds this very solve already.
+    #[arg(long, conflicts_with = "check_claims")]
+    pub resume: bool,
+    /// Keep no checkpoint after each pass.
+    #[arg(long)]
+    pub no_checkpoint: bool,
 }
 
 /// `certilux generate`

@@ -2,6 +2,7 @@
 
 use super::args::{BenchCommand, BenchFormat, SuiteArg};
 use super::error::CliError;
+use super::logs;
 use super::scene_source::read_scene;
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
@@ -78,7 +79,7 @@ fn run_suite(session: &Session, which: SuiteArg) -> Result<Baseline, CliError> {
     };
     for case in cases {
         if !session.quiet {
-            eprintln!("certilux: {}", case.scene);
+            logs::note(format_args!("{}", case.scene));
         }
         run_case(case, &mut now)?;
         if session

@@ -1,12 +1,15 @@
 //! Everything that can go wrong on the command line, and its exit code.
 
+use super::logs;
 use crate::embree::EmbreeError;
 use crate::experiment::{AuditError, SweepError, TooManyPoints};
-use crate::output::{CameraError, ComparisonError, OutputError};
+use crate::job::TomlError;
+use crate::output::{CameraError, CheckpointError, ComparisonError, OutputError};
 use crate::reference::{NothingToCompare, ReferenceError};
 use crate::scene::LoadError;
 use crate::scene::generate::UnknownScene;
 use crate::solve::{ConfigError, SolveError};
+use std::path::PathBuf;
 
 /// An error of a command.
 #[derive(Debug, thiserror::Error)]
@@ -27,6 +30,28 @@ pub enum CliError {
     /// The solve ended without a result.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// The solve was stopped and can go on from a checkpoint.
+    #[error(
+        "interrupted in pass {pass}; {} holds the state after pass {completed}: the same command with --resume goes on from there",
+        checkpoint.display()
+    )]
+    Suspended {
+        /// The pass that was under way.
+        pass: u32,
+        /// Passes completed before it.
+        completed: u32,
+        /// The file.
+        checkpoint: PathBuf,
+    },
+    /// The batch was stopped.
+    #[error("{0}")]
+    Stopped(String),
+    /// A job list or a configuration file cannot be used.
+    #[error(transparent)]
+    Toml(#[from] TomlError),
+    /// The checkpoint cannot be used.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// Embree failed.
     #[error(transparent)]
     Embree(#[from] EmbreeError),
@@ -104,12 +129,16 @@ impl CliError {
             | Self::Camera(_)
             | Self::Solution(_)
             | Self::Argument(_)
+            | Self::Checkpoint(_)
+            | Self::Toml(_)
             | Self::Comparison(_)
             | Self::NothingToCompare(_)
             | Self::Reference(ReferenceError::Config(_))
-            | Self::Solve(SolveError::Config(_)) => 2,
+            | Self::Solve(SolveError::Config(_) | SolveError::Snapshot(_)) => 2,
             Self::CheckFailed(_) => 1,
             Self::Interrupted
+            | Self::Suspended { .. }
+            | Self::Stopped(_)
             | Self::Reference(ReferenceError::Interrupted)
             | Self::Solve(SolveError::Interrupted { .. })
             | Self::Output(OutputError::Interrupted { .. }) => 130,
@@ -120,11 +149,15 @@ impl CliError {
     /// Says what went wrong: help and versions on standard output, errors on standard error.
     pub fn report(&self) {
         match self {
+            Self::Arguments(error) if logs::as_json() && error.use_stderr() => {
+                let text = error.render().to_string();
+                logs::error(format_args!("{}", text.trim()), self.exit_code());
+            }
             Self::Arguments(error) => {
                 // A closed pipe is no reason to fail while failing.
                 let _ = error.print();
             }
-            other => eprintln!("certilux: {other}"),
+            other => logs::error(format_args!("{other}"), other.exit_code()),
         }
     }
 }

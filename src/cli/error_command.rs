@@ -1,6 +1,7 @@
 //! `certilux error`: how far a solution is from a reference.
 
 use super::error::CliError;
+use super::logs;
 use super::reference_args::ErrorCommand;
 use super::scene_source::read_scene;
 use super::session::{Session, print_line};
@@ -32,12 +33,12 @@ pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
     let truth = true_faces(&records, scene.as_ref())?;
     let error = solution_error(&truth, &solved_lights(&mesh))?;
     if !error.missing.is_empty() {
-        eprintln!(
-            "certilux: warning: {} of {} faces are not in the solution and count as black: {}",
+        logs::warn(format_args!(
+            "{} of {} faces are not in the solution and count as black: {}",
             error.missing.len(),
             error.faces.len(),
             names(&error.missing)
-        );
+        ));
     }
     // The figures are the result, not progress: --quiet leaves them.
     print_figures(&error);

@@ -1,5 +1,6 @@
 //! Progress of a solve on a terminal: pass, exchanges a second, time left.
 
+use super::logs;
 use crate::solve::{Observer, PassStatistics, SolveConfig, Stop};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 use std::sync::Arc;
@@ -19,7 +20,7 @@ pub struct Progress {
 impl Progress {
     /// Watches a solve with this configuration.
     pub fn new(quiet: bool, interrupted: Arc<AtomicBool>, config: &SolveConfig) -> Self {
-        let bar = if quiet {
+        let bar = if quiet || logs::as_json() {
             ProgressBar::hidden()
         } else {
             // Hidden by itself where standard error is no terminal.
@@ -69,6 +70,14 @@ impl Observer for Progress {
     }
 
     fn pass_done(&self, statistics: &PassStatistics, unshot_fraction: f64) {
+        tracing::info!(
+            pass = statistics.pass,
+            exchanges = statistics.exchanges,
+            rays = statistics.rays,
+            seconds = statistics.seconds,
+            unshot_fraction,
+            "pass done"
+        );
         self.bar.println(format!(
             "pass {:>3}: {} exchanges, {} rays, {:.2} s, {:.2e} of the power unshot",
             statistics.pass,

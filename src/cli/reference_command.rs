@@ -1,6 +1,7 @@
 //! `certilux reference`: unbiased radiosity of every source face, with error bars.
 
 use super::error::CliError;
+use super::logs;
 use super::reference_args::ReferenceCommand;
 use super::reference_progress::ReferenceProgress;
 use super::scene_source::load_scene;
@@ -55,7 +56,10 @@ pub fn measure_scene(
         SolveConfig::default().seed,
         &DeviceConfig::default(),
     )?;
-    let progress = ReferenceProgress::new(session.quiet, Arc::clone(&session.interrupted));
+    let progress = ReferenceProgress::new(
+        session.quiet || logs::as_json(),
+        Arc::clone(&session.interrupted),
+    );
     let reference = measure(&traced, config, &progress)?;
     drop(progress);
     let [radiosity, stderr] = mean_radiosity(&reference.faces);

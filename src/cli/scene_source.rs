@@ -1,6 +1,7 @@
 //! Where a scene comes from: an OBJ file, or `builtin:NAME`.
 
 use super::error::CliError;
+use super::logs;
 use super::solve_args::SceneArgs;
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, Scene, load_file, load_text};
@@ -14,7 +15,7 @@ const BUILTIN: &str = "builtin:";
 pub fn load_scene(arguments: &SceneArgs) -> Result<Scene, CliError> {
     let scene = read_scene(&arguments.scene, &arguments.load_config())?;
     for warning in &scene.warnings {
-        eprintln!("certilux: warning: {}", warning.0);
+        logs::warn(format_args!("{}", warning.0));
     }
     Ok(scene)
 }

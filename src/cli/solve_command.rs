@@ -1,18 +1,25 @@
 //! `certilux solve`: OBJ in; solution, picture and numbers out.
 
 use super::args::SolveCommand;
+use super::checkpointing::{Checkpointing, is_done};
 use super::error::CliError;
+use super::logs;
 use super::progress::Progress;
 use super::quality::Quality;
 use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
 use super::scene_source::load_scene;
 use super::session::Session;
+use super::solve_settings::settings;
 use super::summary::print_summary;
 use crate::embree::DeviceConfig;
 use crate::output::{
-    HierarchyBlock, SceneBlock, SecondsBlock, SolvedMesh, Staging, StatsFile, ViewConfig, write_ply,
+    ContentBlock, Fingerprint, HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh,
+    Staging, StatsFile, ViewConfig, file_hash, write_ply,
 };
-use crate::solve::{ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, solve};
+use crate::solve::{
+    ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, resume, solve,
+};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -49,6 +56,20 @@ fn solve_and_write(
     let start = Instant::now();
     let scene = session.stops_at_once(|| load_scene(&command.scene))?;
     let load = start.elapsed().as_secs_f64();
+    tracing::info!(
+        scene = scene.name,
+        polygons = scene.polygons.len(),
+        seconds = load,
+        "scene loaded"
+    );
+    let fingerprint = Fingerprint::new(&scene, settings(command, config));
+    if command.resume && is_done(&command.out, &fingerprint, names(command)) {
+        session.say(format_args!(
+            "{} holds this solve already; nothing is left to do",
+            command.out.display()
+        ));
+        return Ok(());
+    }
     // A folder that cannot be made is better known before the solve than after; an invalid scene makes none.
     make_folder(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
@@ -61,17 +82,34 @@ fn solve_and_write(
         )
         .map(|p| p.with_guarantees(config.technique, &command.solve.occluders.config()))
     })?;
+    tracing::info!(
+        facets = prepared.hierarchy.facets.len(),
+        occluders = prepared
+            .guarantees
+            .as_ref()
+            .map_or(0, |g| g.occluders.len()),
+        "scene prepared"
+    );
     let solving = Instant::now();
-    let solved = solve(&prepared, config, &progress)?;
+    let checkpoint = Checkpointing::new(
+        &progress,
+        &command.out,
+        &prepared,
+        fingerprint.clone(),
+        !command.no_checkpoint && !config.check_claims,
+    );
+    let (solved, earlier_seconds) =
+        solve_or_resume(session, &prepared, config, &checkpoint, command.resume)?;
     progress.finish();
-    let solve_seconds = solving.elapsed().as_secs_f64();
+    let solve_seconds = solving.elapsed().as_secs_f64() + earlier_seconds;
     for warning in &solved.warnings {
-        eprintln!("certilux: warning: {warning}");
+        logs::warn(format_args!("{warning}"));
     }
     let writing = Instant::now();
     let mut staging = Staging::new(&command.out)?;
     let mesh = SolvedMesh::new(&prepared.scene, &solved.solution);
-    write_ply(&staging.file("solution.ply")?, &mesh, &session.interrupted)?;
+    let solution_path = staging.file("solution.ply")?;
+    write_ply(&solution_path, &mesh, &session.interrupted)?;
     if !command.no_view {
         let picture = render(
             &mesh,
@@ -91,6 +129,13 @@ fn solve_and_write(
         &prepared,
         &solved,
     );
+    stats.content = ContentBlock {
+        scene: fingerprint.scene.clone(),
+        settings: fingerprint.settings_hash(),
+        solution: file_hash(&solution_path)
+            .map_err(|e| OutputError::io("read", &solution_path, e))?,
+    };
+    stats.settings = fingerprint.settings;
     // With the black face of each polygon that no light reaches.
     stats.hierarchy.leaves = mesh.faces.len();
     stats.seconds = SecondsBlock {
@@ -103,6 +148,7 @@ fn solve_and_write(
     };
     stats.write(&stats_path, &session.interrupted)?;
     let files = staging.publish()?;
+    checkpoint.remove();
     if !session.quiet {
         print_summary(&stats, &files);
     }
@@ -110,6 +156,39 @@ fn solve_and_write(
         report_check(session, &solved.check)?;
     }
     Ok(())
+}
+
+/// What a whole set of results holds.
+fn names(command: &SolveCommand) -> &'static [&'static str] {
+    const NAMES: [&str; 4] = ["solution.ply", "stats.json", "view.exr", "view.png"];
+    match command.no_view {
+        true => &NAMES[..2],
+        false => &NAMES,
+    }
+}
+
+/// Solves from the start, or from the checkpoint; with the seconds that its passes took.
+fn solve_or_resume(
+    session: &Session,
+    prepared: &PreparedScene,
+    config: &SolveConfig,
+    checkpoint: &Checkpointing<'_>,
+    wanted: bool,
+) -> Result<(Solved, f64), CliError> {
+    let explain = |error| checkpoint.explain(error);
+    let Some(state) = checkpoint.state(wanted)? else {
+        if wanted {
+            session.say(format_args!(
+                "no checkpoint: the solve starts at its beginning"
+            ));
+        }
+        return Ok((solve(prepared, config, checkpoint).map_err(explain)?, 0.0));
+    };
+    let solved = resume(prepared, config, checkpoint, &state).map_err(explain)?;
+    let earlier = solved.passes.len().saturating_sub(checkpoint.passes_made());
+    session.say(format_args!("went on after pass {earlier}"));
+    let seconds = solved.passes[..earlier].iter().map(|p| p.seconds).sum();
+    Ok((solved, seconds))
 }
 
 /// Says what the rays of proved exchanges found; an error if a claim is wrong.
@@ -156,6 +235,8 @@ fn stats_file(
             Stop::Converged(x) => Some(x),
             Stop::Passes(_) => None,
         },
+        settings: BTreeMap::new(),
+        content: ContentBlock::default(),
         scene,
         hierarchy: HierarchyBlock {
             face_clusters: count(crate::cluster::NodeKind::FaceCluster),

@@ -3,11 +3,13 @@
 mod atomic;
 mod auto_camera;
 mod camera;
+mod checkpoint_file;
 mod cluster_colours;
 mod comparison_table;
 mod error;
 mod exr_file;
 mod eye_places;
+mod fingerprint;
 #[cfg(test)]
 mod fixture;
 mod incidence;
@@ -35,10 +37,14 @@ mod view_tests;
 
 pub use atomic::{FileWriter, write_atomically};
 pub use camera::{Camera, CameraError, PinHole};
+pub use checkpoint_file::{
+    CheckpointError, CheckpointKey, CheckpointProblem, read_checkpoint, write_checkpoint,
+};
 pub use cluster_colours::write_cluster_ply;
 pub use comparison_table::{comparison_csv, comparison_markdown};
 pub use error::OutputError;
 pub use exr_file::write_exr;
+pub use fingerprint::{ContentBlock, Fingerprint, HashText, file_hash, scene_hash};
 pub use occluder_mesh::{OccluderSummary, write_occluders};
 pub use picture::{Picture, Pixel};
 pub use ply_reader::read_ply;

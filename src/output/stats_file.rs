@@ -1,12 +1,13 @@
 //! Writes `stats.json`: the numbers of one solve, in one fixed order of keys.
 
 use super::solved_mesh::triangle_area;
-use super::{OutputError, write_atomically};
+use super::{ContentBlock, OutputError, write_atomically};
 use crate::math::PolygonId;
 use crate::scene::Scene;
 use crate::solve::{PassStatistics, PowerLedger};
 use glam::DVec3;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -38,6 +39,10 @@ pub struct StatsFile {
     /// The unshot fraction at which the solve was to stop; absent where passes were counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub converge: Option<f64>,
+    /// Every setting that affects the light, by the name of its flag.
+    pub settings: BTreeMap<String, String>,
+    /// Hashes of the scene, the settings and the solution.
+    pub content: ContentBlock,
     /// The input.
     pub scene: SceneBlock,
     /// What was built over it.
@@ -236,6 +241,8 @@ mod tests {
             rays_per_exchange: 8,
             quality: "normal".to_owned(),
             converge: Some(1e-3),
+            settings: BTreeMap::new(),
+            content: ContentBlock::default(),
             scene: SceneBlock::new(&room),
             hierarchy: HierarchyBlock::default(),
             passes: vec![PassStatistics::default(); 2],

@@ -26,6 +26,9 @@ mod push_pull;
 mod query_schedule;
 mod radiosity;
 mod sampled_element;
+mod snapshot;
+#[cfg(test)]
+mod snapshot_tests;
 mod solution;
 #[allow(clippy::module_inception, reason = "the solve of the solve stage")]
 mod solve;
@@ -43,6 +46,7 @@ pub use guarantees::Guarantees;
 pub use observer::{Observer, Silent};
 pub use pass::PassOutcome;
 pub use prepared::{PreparedScene, StageSeconds};
+pub use snapshot::{Snapshot, SnapshotError};
 pub use solution::{PatchPath, Solution, SolvedPatch, split_triangle};
-pub use solve::{Solved, Solver, solve};
+pub use solve::{Solved, Solver, resume, solve};
 pub use statistics::{PassStatistics, PowerLedger};

@@ -1,5 +1,6 @@
 //! How a long solve is watched and stopped.
 
+use super::snapshot::Snapshot;
 use super::statistics::PassStatistics;
 
 /// Hears of progress, from any thread.
@@ -10,6 +11,8 @@ pub trait Observer: Sync {
     fn task_done(&self, _exchanges: u64) {}
     /// A pass has ended; `unshot_fraction` is the unshot power over the emitted.
     fn pass_done(&self, _statistics: &PassStatistics, _unshot_fraction: f64) {}
+    /// A pass has ended, and `take` makes the state from which the solve can be [resumed](super::resume).
+    fn state_reached(&self, _take: &dyn Fn() -> Snapshot) {}
     /// True when the solve shall stop; asked often.
     fn interrupted(&self) -> bool {
         false

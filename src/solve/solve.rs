@@ -12,6 +12,7 @@ use super::pass::{PassOutcome, SolveContext, run_pass};
 use super::prepared::PreparedScene;
 use super::push_pull::{FacetProperties, gathered_power, push_pull, sum_leaves};
 use super::radiosity::{Light, Radiosity};
+use super::snapshot::{Carried, Snapshot, SnapshotError};
 use super::solution::{PatchPath, Solution, SolvedPatch};
 use super::statistics::{PassStatistics, PowerLedger};
 use crate::cluster::Hierarchy;
@@ -60,8 +61,30 @@ pub fn solve(
 ) -> Result<Solved, SolveError> {
     config.validate()?;
     match prepared.scene.channels() {
-        1 => Solver::<1>::new(prepared, config, observer).run(),
-        _ => Solver::<3>::new(prepared, config, observer).run(),
+        1 => Solver::<1>::new(prepared, config, observer).run(Carried::default()),
+        _ => Solver::<3>::new(prepared, config, observer).run(Carried::default()),
+    }
+}
+
+/// Goes on from a state that [`Observer::state_reached`] was given, to the same bits as a solve of the same
+/// scene with the same settings that was never stopped. Claims are no part of a state, so none may be asked for.
+///
+/// # Errors
+/// As [`solve`], and [`SolveError::Snapshot`] where the state is of another scene or damaged.
+pub fn resume(
+    prepared: &PreparedScene,
+    config: &SolveConfig,
+    observer: &dyn Observer,
+    snapshot: &Snapshot,
+) -> Result<Solved, SolveError> {
+    config.validate()?;
+    if config.keep_claims > 0 || config.check_claims {
+        let reason = "claims of its earlier passes were not kept";
+        return Err(SnapshotError(reason.to_owned()).into());
+    }
+    match prepared.scene.channels() {
+        1 => Solver::<1>::new(prepared, config, observer).go_on(snapshot),
+        _ => Solver::<3>::new(prepared, config, observer).go_on(snapshot),
     }
 }
 
@@ -190,54 +213,67 @@ impl<'a, const C: usize> Solver<'a, C> {
         }
     }
 
-    fn run(mut self) -> Result<Solved, SolveError> {
-        let mut passes = Vec::new();
+    fn go_on(mut self, snapshot: &Snapshot) -> Result<Solved, SolveError> {
+        let carried = snapshot.restore(self.hierarchy, &mut self.light)?;
+        self.run(carried)
+    }
+
+    fn run(mut self, mut carried: Carried) -> Result<Solved, SolveError> {
         let mut warnings = Vec::new();
-        let mut dropped = 0.0;
-        let mut scales = Vec::new();
         let mut claims = ClaimSample::new(self.config.keep_claims);
         let mut check = ClaimCheck::default();
-        let emitted = mean(&self.emitted);
         let normalise = self.normalises();
-        let unshot = loop {
-            let pass = passes.len() as u32 + 1;
+        let mut unshot = self.unshot_power();
+        while !self.is_done(&carried.passes, unshot, &mut warnings) {
+            let pass = carried.passes.len() as u32 + 1;
             let (outcome, scale) = self.pass(pass, normalise)?;
             let mut statistics = outcome.statistics;
-            dropped += outcome.dropped;
-            scales.push(scale);
+            carried.dropped += outcome.dropped;
+            carried.scales.push(scale);
             claims.merge(outcome.claims);
             check.merge(outcome.check);
-            let unshot = self.unshot_power();
+            unshot = self.unshot_power();
             statistics.unshot = self.to_watts(unshot);
-            let fraction = if emitted > 0.0 { unshot / emitted } else { 0.0 };
-            self.observer.pass_done(&statistics, fraction);
-            passes.push(statistics);
-            let done = match self.config.stop {
-                Stop::Passes(n) => pass >= n || unshot == 0.0,
-                Stop::Converged(x) => fraction < x,
-            };
-            if done {
-                break unshot;
-            }
-            if pass >= SolveConfig::MAX_PASSES {
-                warnings.push(self.not_converged(&passes, fraction));
-                break unshot;
-            }
-        };
-        let power = self.ledger(unshot + self.dropped_mean(dropped));
+            carried.passes.push(statistics);
+            self.observer
+                .pass_done(&statistics, self.share_of_emitted(unshot));
+            self.observer
+                .state_reached(&|| Snapshot::take(&carried, &self.light));
+        }
+        let power = self.ledger(unshot + self.dropped_mean(carried.dropped));
         let solution = self.solution();
         Ok(Solved {
             leaves: solution.patches.len(),
             solution,
-            passes,
+            passes: carried.passes,
             power,
             warnings,
             channels: C,
             bytes: self.light.bytes(),
-            normalised: normalise.then_some(scales),
+            normalised: normalise.then_some(carried.scales),
             claims: claims.into_claims(),
             check,
         })
+    }
+
+    /// Whether so many passes are enough, with a warning where they are too many.
+    fn is_done(&self, passes: &[PassStatistics], unshot: f64, warnings: &mut Vec<String>) -> bool {
+        let made = passes.len() as u32;
+        let fraction = self.share_of_emitted(unshot);
+        let done = match self.config.stop {
+            Stop::Passes(n) => made >= n || unshot == 0.0,
+            Stop::Converged(x) => fraction < x,
+        };
+        if !done && made >= SolveConfig::MAX_PASSES {
+            warnings.push(self.not_converged(passes, fraction));
+            return true;
+        }
+        made > 0 && done
+    }
+
+    fn share_of_emitted(&self, power: f64) -> f64 {
+        let emitted = mean(&self.emitted);
+        if emitted > 0.0 { power / emitted } else { 0.0 }
     }
 
     /// Runs pass number `pass` with this solve's own settings: the light after it is what the next

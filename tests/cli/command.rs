@@ -43,6 +43,8 @@ impl Folder {
         command
             .current_dir(self.root.path())
             .args(arguments)
+            // What whoever runs the tests has set for other programs.
+            .env_remove("RUST_LOG")
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());

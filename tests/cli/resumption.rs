@@ -1,0 +1,277 @@
+//! Solves that are killed and go on, and checkpoints that are refused.
+#![cfg(unix)]
+
+use crate::command::{Folder, Outcome, ROOM, write_room};
+use crate::determinism::counts;
+use certilux::math::hash_u64;
+use rustix::process::{Pid, Signal, kill_process};
+use std::fs;
+use std::process::Child;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+const CHECKPOINT: &str = "results/solve.checkpoint";
+
+/// A solve of many short passes.
+const MANY_PASSES: &str =
+    "solve builtin:cornell --no-view --epsilon 1e-4 --gradient 0.05 --passes 14 --quiet";
+
+fn start(folder: &Folder, line: &str) -> Child {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    folder.command(&words).spawn().unwrap()
+}
+
+/// Runs a solve into `results` until its first checkpoint stands there, and kills it.
+fn kill_after_first_checkpoint(folder: &Folder, line: &str) {
+    let mut child = start(folder, &format!("{line} --out results"));
+    let began = Instant::now();
+    while !folder.path(CHECKPOINT).exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        assert!(began.elapsed() < Duration::from_secs(60), "no checkpoint");
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(folder.path(CHECKPOINT).exists(), "it ended by itself");
+}
+
+/// A solve of some hundred passes, seconds in all.
+const ROOM_LINE: &str =
+    "solve room.obj --no-view --epsilon 1e-5 --gradient 0.01 --min-area 1e-6 --converge 1e-30";
+
+/// A folder in which [`ROOM_LINE`] was killed after its first checkpoint.
+fn killed_room() -> Folder {
+    let folder = Folder::new();
+    write_room(&folder);
+    kill_after_first_checkpoint(&folder, ROOM_LINE);
+    folder
+}
+
+/// Kills a solve by SIGKILL `kills` times at random moments, each time going on with `--resume` and another
+/// number of threads, and compares the end with a solve that nobody disturbed.
+fn survives(kills: u32) {
+    let folder = Folder::new();
+    let began = Instant::now();
+    let whole = folder.line(&format!("{MANY_PASSES} --out whole"));
+    let duration = began.elapsed();
+    whole.ends_with(0, "whole");
+
+    let mut killed = 0;
+    let mut rounds = 0;
+    let mut took_up = 0;
+    for attempt in 0u64.. {
+        let threads = 1 + attempt % 3;
+        let line = format!("{MANY_PASSES} --out results --resume --threads {threads}");
+        took_up += u32::from(folder.path(CHECKPOINT).exists());
+        let mut child = start(&folder, &line);
+        // At most two thirds of a whole solve; a process that ends before that finished its round.
+        let share = (hash_u64(attempt ^ u64::from(kills)) % 1000) as f64 / 1500.0;
+        let until = Instant::now() + duration.mul_f64(share);
+        let ended = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break Some(status);
+            }
+            if killed < kills && Instant::now() >= until {
+                break None;
+            }
+            sleep(Duration::from_millis(1));
+        };
+        if ended.is_none() {
+            child.kill().unwrap();
+            killed += 1;
+        }
+        let outcome = Outcome::of(child.wait_with_output().unwrap());
+        if ended.is_none() {
+            continue;
+        }
+        outcome.ends_with(0, "resumed");
+        rounds += 1;
+        let solution = |name: &str| fs::read(folder.path(name).join("solution.ply")).unwrap();
+        assert!(solution("whole") == solution("results"), "round {rounds}");
+        assert_eq!(
+            counts(folder.stats("whole")),
+            counts(folder.stats("results"))
+        );
+        assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
+        if killed == kills {
+            break;
+        }
+        fs::remove_dir_all(folder.path("results")).unwrap();
+    }
+    println!("{killed} kills, {took_up} runs took up a checkpoint, {rounds} solves completed");
+    assert!(took_up > 0, "no run ever met a checkpoint");
+}
+
+#[test]
+fn a_killed_solve_goes_on_to_the_same_bytes() {
+    survives(6);
+}
+
+#[test]
+#[ignore = "minutes: 50 kills"]
+fn fifty_kills_leave_no_trace() {
+    survives(50);
+}
+
+#[test]
+fn an_interrupted_solve_says_how_to_go_on() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let child = start(&folder, &format!("{ROOM_LINE} --out results"));
+    while !folder.path(CHECKPOINT).exists() {
+        sleep(Duration::from_millis(1));
+    }
+    kill_process(Pid::from_child(&child), Signal::INT).unwrap();
+    Outcome::of(child.wait_with_output().unwrap())
+        .ends_with(130, "interrupted")
+        .says(&["interrupted", "--resume", "solve.checkpoint"]);
+    assert_eq!(folder.names("results"), ["solve.checkpoint"]);
+}
+
+/// Asserts that the checkpoint in `results` is refused whole: nothing is solved, and it stays as it is.
+#[track_caller]
+fn refused(folder: &Folder, line: &str, words: &[&str], what: &str) {
+    let before = fs::read(folder.path(CHECKPOINT)).unwrap();
+    folder
+        .line(&format!("{line} --out results --resume"))
+        .ends_with(2, what)
+        .says(&["solve.checkpoint", "--resume"])
+        .says(words);
+    assert_eq!(folder.names("results"), ["solve.checkpoint"], "{what}");
+    assert!(
+        fs::read(folder.path(CHECKPOINT)).unwrap() == before,
+        "{what}"
+    );
+}
+
+#[test]
+fn no_damaged_checkpoint_is_loaded() {
+    let folder = killed_room();
+    let whole = fs::read(folder.path(CHECKPOINT)).unwrap();
+    assert!(whole.len() > 2000, "{}", whole.len());
+    // The head closely, the rest here and there.
+    let places = (0..16)
+        .chain((16..400).step_by(48))
+        .chain((400..whole.len()).step_by(whole.len() / 24));
+    for at in places {
+        let mut flipped = whole.clone();
+        flipped[at] ^= 1 << (at % 8);
+        fs::write(folder.path(CHECKPOINT), flipped).unwrap();
+        refused(&folder, ROOM_LINE, &[], &format!("byte {at}"));
+    }
+    for length in [0, 1, 8, 11, 12, 40, 300, whole.len() / 2, whole.len() - 1] {
+        fs::write(folder.path(CHECKPOINT), &whole[..length]).unwrap();
+        refused(&folder, ROOM_LINE, &["damaged"], &format!("{length} bytes"));
+    }
+    let mut newer = whole.clone();
+    newer[8] += 1;
+    fs::write(folder.path(CHECKPOINT), newer).unwrap();
+    refused(&folder, ROOM_LINE, &["newer"], "newer");
+    fs::write(folder.path(CHECKPOINT), "# notes\n").unwrap();
+    refused(
+        &folder,
+        ROOM_LINE,
+        &["no checkpoint of certilux"],
+        "foreign file",
+    );
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_or_of_other_settings_is_refused() {
+    let folder = killed_room();
+    for (more, words) in [
+        ("--epsilon=2e-4", "epsilon is 1e-5 there and 2e-4 here"),
+        (
+            "--technique=normal",
+            "technique is occlusion there and normal here",
+        ),
+        ("--seed=2", "seed"),
+        ("--rays=16", "rays"),
+        ("--sides=two", "sides"),
+        ("--occluders=1", "occluders"),
+        ("--stride=4", "stride"),
+        ("--normalise=off", "normalise"),
+    ] {
+        let line = match more.starts_with("--epsilon") {
+            true => &ROOM_LINE.replace("--epsilon 1e-5", ""),
+            false => ROOM_LINE,
+        };
+        refused(
+            &folder,
+            &format!("{line} {more}"),
+            &["another solve", words],
+            more,
+        );
+    }
+    let line = ROOM_LINE.replace("--converge 1e-30", "--passes 9");
+    refused(&folder, &line, &["another solve", "passes"], "passes");
+
+    folder.write(
+        "room.mtl",
+        ROOM[1].replace("Kd 0.5 0.5 0.5", "Kd 0.5 0.5 0.6"),
+    );
+    refused(&folder, ROOM_LINE, &["another scene"], "another colour");
+    folder.write("room.mtl", ROOM[1]);
+    folder.write(
+        "room.obj",
+        ROOM[0].replace("v 1 1 1\n", "v 1 1 1.0000001\n"),
+    );
+    refused(&folder, ROOM_LINE, &["another scene"], "another vertex");
+}
+
+#[test]
+fn resuming_what_is_done_does_nothing_and_what_was_never_begun_begins_it() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let line = "solve room.obj --no-view --epsilon 1e-3 --out results --resume";
+    folder.line(line).ends_with(0, "begun");
+    assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
+    let stats = || fs::read(folder.path("results/stats.json")).unwrap();
+    let first = stats();
+    let again = folder.line(line);
+    again.ends_with(0, "again");
+    assert!(again.stdout.contains("already"), "{}", again.stdout);
+    assert_eq!(stats(), first);
+
+    // Not this solve, not all of it, not whole, not asked to.
+    let seconds = "\"seconds\"";
+    assert!(String::from_utf8_lossy(&first).contains(seconds));
+    for (what, change) in [
+        (
+            "settings",
+            &(|| folder.line(&line.replace("1e-3", "2e-3"))) as &dyn Fn() -> Outcome,
+        ),
+        ("picture", &|| folder.line(&line.replace("--no-view ", ""))),
+        ("bytes", &|| {
+            let path = folder.path("results/solution.ply");
+            let mut bytes = fs::read(&path).unwrap();
+            let end = bytes.len() - 5;
+            bytes[end] ^= 1;
+            fs::write(&path, bytes).unwrap();
+            folder.line(line)
+        }),
+        ("anew", &|| folder.line(line.trim_end_matches(" --resume"))),
+    ] {
+        let run = change();
+        run.ends_with(0, what);
+        assert!(!run.stdout.contains("already"), "{what}: {}", run.stdout);
+        folder.line(line).ends_with(0, "restore");
+    }
+}
+
+/// A checkpoint that cannot be written costs a warning, not the solve.
+#[test]
+fn a_checkpoint_that_cannot_be_written_is_no_failure() {
+    let folder = Folder::new();
+    write_room(&folder);
+    fs::create_dir_all(folder.path("results/solve.checkpoint")).unwrap();
+    folder
+        .line("solve room.obj --no-view --epsilon 1e-3 --out results")
+        .ends_with(0, "solved")
+        .says(&["warning", "without a checkpoint", "solve.checkpoint"]);
+    assert!(folder.path("results/solution.ply").exists());
+    // Not even tried.
+    let run = folder.line("solve room.obj --no-view --epsilon 1e-3 --out results --no-checkpoint");
+    run.ends_with(0, "no checkpoint");
+    assert_eq!(run.stderr, "");
+}
