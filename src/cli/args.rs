@@ -1,6 +1,7 @@
 //! The command line as typed.
 
 use super::batch_args::BatchCommand;
+use super::byte_size::{ByteSize, parse_byte_size};
 use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{
     OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
@@ -117,6 +118,9 @@ pub struct SolveCommand {
     /// Keep no checkpoint after each pass.
     #[arg(long)]
     pub no_checkpoint: bool,
+    /// Refuse a solve that is likely to need more memory than SIZE (such as 8G), and stop one that holds more after a pass.
+    #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
+    pub max_memory: Option<ByteSize>,
 }
 
 /// `certilux generate`

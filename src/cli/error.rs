@@ -1,6 +1,6 @@
 //! Everything that can go wrong on the command line, and its exit code.
 
-use super::logs;
+use super::logs::{self, BadFilter};
 use crate::embree::EmbreeError;
 use crate::experiment::{AuditError, SweepError, TooManyPoints};
 use crate::job::TomlError;
@@ -49,6 +49,9 @@ pub enum CliError {
     /// A job list or a configuration file cannot be used.
     #[error(transparent)]
     Toml(#[from] TomlError),
+    /// The filter of the logs cannot be used.
+    #[error(transparent)]
+    Filter(#[from] BadFilter),
     /// The checkpoint cannot be used.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -131,6 +134,7 @@ impl CliError {
             | Self::Argument(_)
             | Self::Checkpoint(_)
             | Self::Toml(_)
+            | Self::Filter(_)
             | Self::Comparison(_)
             | Self::NothingToCompare(_)
             | Self::Reference(ReferenceError::Config(_))

@@ -1,6 +1,5 @@
 //! What is said on standard error besides progress: as sentences, or with `--json-logs` as one JSON object a line.
 
-use super::error::CliError;
 use std::fmt;
 use std::sync::OnceLock;
 use tracing_subscriber::EnvFilter;
@@ -11,11 +10,23 @@ static AS_JSON: OnceLock<bool> = OnceLock::new();
 /// What is logged as JSON unless `RUST_LOG` says otherwise.
 const DEFAULT_FILTER: &str = "info";
 
+/// `RUST_LOG` cannot be understood.
+#[derive(Debug, thiserror::Error)]
+#[error("RUST_LOG={text}: {reason}")]
+pub struct BadFilter {
+    text: String,
+    reason: String,
+}
+
 /// Starts logging: as JSON if asked for, else as text where `RUST_LOG` asks for anything.
-pub fn install(as_json: bool) -> Result<(), CliError> {
+pub fn install(as_json: bool) -> Result<(), BadFilter> {
     let filter = match std::env::var("RUST_LOG") {
-        Ok(text) if !text.trim().is_empty() => EnvFilter::try_new(&text)
-            .map_err(|e| CliError::Argument(format!("RUST_LOG={text}: {e}")))?,
+        Ok(text) if !text.trim().is_empty() => {
+            EnvFilter::try_new(&text).map_err(|e| BadFilter {
+                reason: e.to_string(),
+                text,
+            })?
+        }
         _ if as_json => EnvFilter::new(DEFAULT_FILTER),
         _ => return Ok(()),
     };

@@ -19,6 +19,7 @@ mod generate_command;
 mod interrupt;
 mod logs;
 mod manual_commands;
+mod memory_guard;
 mod occluders_command;
 mod progress;
 mod quality;

@@ -4,6 +4,7 @@ use super::args::SolveCommand;
 use super::checkpointing::{Checkpointing, is_done};
 use super::error::CliError;
 use super::logs;
+use super::memory_guard::{MemoryGuard, check_estimate};
 use super::progress::Progress;
 use super::quality::Quality;
 use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
@@ -12,6 +13,7 @@ use super::session::Session;
 use super::solve_settings::settings;
 use super::summary::print_summary;
 use crate::embree::DeviceConfig;
+use crate::job::MemoryEstimate;
 use crate::output::{
     ContentBlock, Fingerprint, HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh,
     Staging, StatsFile, ViewConfig, file_hash, write_ply,
@@ -70,6 +72,8 @@ fn solve_and_write(
         ));
         return Ok(());
     }
+    let estimate = MemoryEstimate::of(&scene, config, !command.no_view);
+    check_estimate(estimate, command.max_memory)?;
     // A folder that cannot be made is better known before the solve than after; an invalid scene makes none.
     make_folder(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
@@ -91,15 +95,23 @@ fn solve_and_write(
         "scene prepared"
     );
     let solving = Instant::now();
+    let guard = MemoryGuard::new(&progress, command.max_memory);
     let checkpoint = Checkpointing::new(
-        &progress,
+        &guard,
         &command.out,
         &prepared,
         fingerprint.clone(),
         !command.no_checkpoint && !config.check_claims,
     );
     let (solved, earlier_seconds) =
-        solve_or_resume(session, &prepared, config, &checkpoint, command.resume)?;
+        solve_or_resume(session, &prepared, config, &checkpoint, command.resume).map_err(
+            |error| match guard.exceeded() {
+                Some(held) => CliError::System(format!(
+                    "after a pass the solve held {held} of memory, more than --max-memory; {error}"
+                )),
+                None => error,
+            },
+        )?;
     progress.finish();
     let solve_seconds = solving.elapsed().as_secs_f64() + earlier_seconds;
     for warning in &solved.warnings {

@@ -1,9 +1,10 @@
-//! Many solves at once: what a job list says, and what became of each job.
+//! Work in quantity: what a job list says, what became of each job, what a solve is going to need.
 
 mod batch_file;
 mod grid;
 mod job_list;
 mod job_name;
+mod memory_estimate;
 mod nearest;
 mod setting;
 mod settings_file;
@@ -11,6 +12,7 @@ mod toml_source;
 
 pub use batch_file::{BatchCounts, BatchFile, JobRecord, JobStatus};
 pub use job_list::{Job, read_job_list};
+pub use memory_estimate::MemoryEstimate;
 pub use nearest::nearest;
 pub use setting::{Setting, SettingValue, Vocabulary, override_settings};
 pub use settings_file::{SettingsFile, read_settings_file};

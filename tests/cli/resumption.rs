@@ -275,3 +275,28 @@ fn a_checkpoint_that_cannot_be_written_is_no_failure() {
     run.ends_with(0, "no checkpoint");
     assert_eq!(run.stderr, "");
 }
+
+/// The estimate refuses before anything is made; what is found too much after a pass leaves a checkpoint.
+#[test]
+fn memory_is_bounded_before_and_during_a_solve() {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder
+        .line(&format!("{ROOM_LINE} --out results --max-memory 20M"))
+        .ends_with(2, "estimate")
+        .says(&["likely to need", "--max-memory 20 MiB"]);
+    assert!(!folder.path("results").exists());
+    // A coarse solve is thought to need little; the program alone holds more than that.
+    let coarse = "solve room.obj --no-view --epsilon 1 --gradient 1e6 --min-area 0.1 --converge 1e-30 --out results";
+    folder
+        .line(&format!("{coarse} --max-memory 14M"))
+        .ends_with(3, "guard")
+        .says(&["after a pass", "--max-memory", "--resume"]);
+    assert_eq!(folder.names("results"), ["solve.checkpoint"]);
+    folder
+        .line(&format!("{coarse} --resume --max-memory 2G"))
+        .ends_with(0, "with more");
+    folder
+        .line("solve room.obj --out x --max-memory lots")
+        .ends_with(2, "size");
+}
