@@ -14,7 +14,7 @@ use super::observer::Observer;
 use super::oracle::{Decision, Oracle};
 use super::prover::{Knowledge, Proof, Prover};
 use super::push_pull::local_children;
-use super::query_schedule::{Evidence, Queries};
+use super::query_schedule::{Evidence, Queries, QuerySchedule};
 use super::radiosity::{Gatherer, Radiosity, Shooter};
 use super::sampled_element::{ReceiverSurface, SourceSurface};
 use super::statistics::PassStatistics;
@@ -23,7 +23,7 @@ use crate::embree::CommittedScene;
 use crate::math::{NodeId, hash_u64};
 use crate::scene::Scene;
 use crate::visibility::{
-    AllClear, LEAST_COSINE, SampledVisibility, SegmentTest, Verdict, sample_visibility,
+    AllClear, LEAST_COSINE, SampleCount, SampledVisibility, SegmentTest, Verdict, sample_visibility,
 };
 use glam::Vec3;
 use pulp::Arch;
@@ -97,9 +97,6 @@ fn drop_share(pass: u32) -> f64 {
     1.0e-3 * 0.5f64.powi(pass.min(1000) as i32)
 }
 
-/// Probe rays of a pair: one packet.
-const PROBE_RAYS: u32 = 8;
-
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
 /// set of samples.
 fn packets_of_exchange(rays: u32) -> f32 {
@@ -109,6 +106,9 @@ fn packets_of_exchange(rays: u32) -> f32 {
 /// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
 /// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
 const MEASURED_ONE_IN: u64 = 4;
+
+/// One in how many tasks goes before the others.
+const FIRST_TASKS: usize = 16;
 
 /// Visits between two questions to the observer: a few hundred microseconds.
 const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
@@ -152,22 +152,33 @@ pub fn run_pass<const C: usize>(
         arch: Arch::new(),
     };
     context.observer.pass_started(pass, gatherers.len());
-    // Each owner is one task; the tasks' outcomes are summed in order.
-    let outcomes: Vec<PassOutcome> = gatherers
-        .par_iter_mut()
-        .with_max_len(1)
-        .map(|gatherer| {
-            let outcome = Task::new(pass_data, gatherer).run();
-            context.observer.task_done(outcome.statistics.exchanges);
-            outcome
-        })
-        .collect();
+    // Each owner is one task. A few go first, and the others start from what those learned of queries.
+    let mut run_some = |is_first: bool, schedule: &QuerySchedule| -> Vec<TaskOutcome> {
+        gatherers
+            .par_iter_mut()
+            .with_max_len(1)
+            .enumerate()
+            .filter(|(owner, _)| owner.is_multiple_of(FIRST_TASKS) == is_first)
+            .map(|(owner, gatherer)| {
+                let task = Task::new(&pass_data, gatherer, schedule.clone()).run(owner);
+                context
+                    .observer
+                    .task_done(task.outcome.statistics.exchanges);
+                task
+            })
+            .collect()
+    };
+    let mut outcomes = run_some(true, &QuerySchedule::new(config.technique));
+    let learned = QuerySchedule::after(config.technique, outcomes.iter().map(|t| &t.schedule));
+    outcomes.extend(run_some(false, &learned));
+    // Summed in order, so that the sums have the same bits at any number of threads.
+    outcomes.sort_unstable_by_key(|task| task.owner);
     let mut sum = PassOutcome {
         claims: ClaimSample::new(config.keep_claims),
         blocked: ClaimSample::new(config.keep_blocked),
         ..PassOutcome::default()
     };
-    for outcome in outcomes {
+    for TaskOutcome { outcome, .. } in outcomes {
         sum.statistics.add_counts(&outcome.statistics);
         sum.dropped += outcome.dropped;
         sum.interrupted |= outcome.interrupted;
@@ -177,6 +188,54 @@ pub fn run_pass<const C: usize>(
     }
     sum.statistics.pass = pass;
     sum
+}
+
+impl<const C: usize> Pass<'_, C> {
+    /// Casts the samples of a pair.
+    fn sample(
+        &self,
+        test: impl SegmentTest,
+        source: &Source,
+        receiver: &Element,
+        samples: SampleCount,
+        round: u64,
+    ) -> SampledVisibility {
+        let context = self.context;
+        let key = exchange_key(self.key.wrapping_add(round), &source.element, receiver);
+        sample_visibility(
+            self.arch,
+            test,
+            &SourceSurface {
+                element: &source.element,
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                normals: context.normals,
+                power_before: self.power_before,
+                shooters: self.shooters,
+                owner_of_facet: self.owner_of_facet,
+                first_facets: self.first_facets,
+                owner: source.owner,
+                slot: source.slot,
+            },
+            &ReceiverSurface {
+                element: receiver,
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                normals: context.normals,
+                area_before: context.area_before,
+            },
+            samples,
+            key,
+            self.oracle.tau,
+        )
+    }
+}
+
+/// What came of a task.
+struct TaskOutcome {
+    owner: usize,
+    outcome: PassOutcome,
+    schedule: QuerySchedule,
 }
 
 /// A source in the walk: the element, and where its unshot radiosity stands.
@@ -224,7 +283,7 @@ impl Known {
 
 /// One owner's share of a pass.
 struct Task<'a, 'g, const C: usize> {
-    pass: Pass<'a, C>,
+    pass: &'a Pass<'a, C>,
     gatherer: &'g mut Gatherer<C>,
     prover: Option<Prover<'a>>,
     outcome: PassOutcome,
@@ -235,12 +294,12 @@ struct Task<'a, 'g, const C: usize> {
 }
 
 impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
-    fn new(pass: Pass<'a, C>, gatherer: &'g mut Gatherer<C>) -> Self {
+    fn new(pass: &'a Pass<'a, C>, gatherer: &'g mut Gatherer<C>, schedule: QuerySchedule) -> Self {
         let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
         Self {
             pass,
             gatherer,
-            prover: Prover::new(pass.context.guarantees, pass.config),
+            prover: Prover::new(pass.context.guarantees, pass.config, schedule),
             outcome: PassOutcome {
                 claims: ClaimSample::new(pass.config.keep_claims),
                 blocked: ClaimSample::new(pass.config.keep_blocked),
@@ -252,14 +311,20 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    fn run(mut self) -> PassOutcome {
+    fn run(mut self, owner: usize) -> TaskOutcome {
         let source = self.source_of_node(Hierarchy::ROOT);
         let receiver = Receiver {
             element: self.pass.context.elements[self.gatherer.root.index()],
             local: 0,
         };
         self.walk(&source, &receiver, Known::NOTHING);
-        self.outcome
+        let technique = self.pass.config.technique;
+        let unlearned = || QuerySchedule::new(technique);
+        TaskOutcome {
+            owner,
+            outcome: self.outcome,
+            schedule: self.prover.map_or_else(unlearned, Prover::into_schedule),
+        }
     }
 
     fn source_of_node(&self, id: NodeId) -> Source {
@@ -339,6 +404,9 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     }
 
     fn prove_before_split(&mut self, source: &Source, receiver: &Receiver, known: Known) -> Known {
+        if self.prover.is_none() || known.knowledge.verdict != Verdict::Unknown {
+            return known;
+        }
         let greatest = self.greatest(source);
         let Some(prover) = &mut self.prover else {
             return known;
@@ -348,10 +416,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             * packets_of_exchange(self.pass.config.rays);
         let mut queries = prover.plan_before_split(from, to, known.knowledge, expected);
         if queries == Queries::Probe {
-            queries = match self.probe(source, to) {
-                Some(evidence) => self.after(evidence, expected),
-                None => Queries::None,
-            };
+            let evidence = self.probe(source, to);
+            queries = self.after(evidence, expected);
         }
         self.prove(source, receiver, known, queries, expected)
     }
@@ -363,16 +429,22 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    /// What eight rays say of a pair; `None` if none of them carries light.
-    fn probe(&mut self, source: &Source, receiver: &Element) -> Option<Evidence> {
-        let sampled = self.sample(self.pass.context.embree, source, receiver, PROBE_RAYS, 0);
+    /// What eight rays say of a pair.
+    fn probe(&mut self, source: &Source, receiver: &Element) -> Evidence {
+        let sampled = self.pass.sample(
+            self.pass.context.embree,
+            source,
+            receiver,
+            SampleCount::PROBE,
+            0,
+        );
         self.outcome.statistics.rays += u64::from(sampled.rays);
         self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
         match sampled.rays {
-            0 => None,
-            n if sampled.rays_blocked == n => Some(Evidence::Blocked),
-            _ if sampled.rays_blocked == 0 => Some(Evidence::Clear),
-            _ => Some(Evidence::Mixed),
+            0 => Evidence::Dark,
+            n if sampled.rays_blocked == n => Evidence::Blocked,
+            _ if sampled.rays_blocked == 0 => Evidence::Clear,
+            _ => Evidence::Mixed,
         }
     }
 
@@ -608,23 +680,23 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         known: Known,
         round: u64,
     ) -> SampledVisibility {
-        let rays = self.pass.config.rays;
+        let rays = SampleCount::of_exchange(self.pass.config.rays);
         if self.pass.config.technique == Technique::Blockers {
-            // Out of its place while the list lives, since sampling reads the rest of the task.
-            let mut prover = self.prover.take();
-            let native = prover
+            let list = self
+                .prover
                 .as_mut()
-                .and_then(|p| p.blockers(known.knowledge))
-                .map(|list| self.sample(list, source, receiver, rays, round));
-            self.prover = prover;
-            if let Some(sampled) = native {
+                .and_then(|p| p.blockers(known.knowledge));
+            if let Some(list) = list {
+                let sampled = self.pass.sample(list, source, receiver, rays, round);
                 let statistics = &mut self.outcome.statistics;
                 statistics.native_rays += u64::from(sampled.rays);
                 statistics.native_rays_blocked += u64::from(sampled.rays_blocked);
                 return sampled;
             }
         }
-        let sampled = self.sample(self.pass.context.embree, source, receiver, rays, round);
+        let sampled = self
+            .pass
+            .sample(self.pass.context.embree, source, receiver, rays, round);
         let statistics = &mut self.outcome.statistics;
         statistics.rays += u64::from(sampled.rays);
         statistics.rays_blocked += u64::from(sampled.rays_blocked);
@@ -652,14 +724,14 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         {
             return 1.0;
         }
-        let rays = self.pass.config.rays;
-        let first = self.sample(AllClear, source, receiver, rays, 0);
+        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        let first = self.pass.sample(AllClear, source, receiver, rays, 0);
         if (first.all_clear || first.all_blocked)
             && first.rays > 0
             && self.refines_if_partial(source, receiver, greatest)
             && self.measures_again(source, receiver)
         {
-            let again = self.sample(AllClear, source, receiver, rays, 1);
+            let again = self.pass.sample(AllClear, source, receiver, rays, 1);
             return first.visibility
                 + MEASURED_ONE_IN as f32 * (again.visibility - first.visibility);
         }
@@ -673,56 +745,19 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         };
         let mut segments = std::mem::take(&mut self.segments);
         segments.clear();
+        let rays = SampleCount::of_exchange(self.pass.config.rays);
         // Both sets that a technique without proofs might cast.
         for round in 0..2 {
             let recording = Recording {
                 test: self.pass.context.embree,
                 segments: &mut segments,
             };
-            self.sample(recording, source, receiver, self.pass.config.rays, round);
+            self.pass.sample(recording, source, receiver, rays, round);
         }
         self.outcome
             .check
             .judge(&guarantees.scene, claim, &segments);
         self.segments = segments;
-    }
-
-    fn sample(
-        &self,
-        test: impl SegmentTest,
-        source: &Source,
-        receiver: &Element,
-        rays: u32,
-        round: u64,
-    ) -> SampledVisibility {
-        let context = self.pass.context;
-        let key = exchange_key(self.pass.key.wrapping_add(round), &source.element, receiver);
-        sample_visibility(
-            self.pass.arch,
-            test,
-            &SourceSurface {
-                element: &source.element,
-                scene: context.scene,
-                hierarchy: context.hierarchy,
-                normals: context.normals,
-                power_before: self.pass.power_before,
-                shooters: self.pass.shooters,
-                owner_of_facet: self.pass.owner_of_facet,
-                first_facets: self.pass.first_facets,
-                owner: source.owner,
-                slot: source.slot,
-            },
-            &ReceiverSurface {
-                element: receiver,
-                scene: context.scene,
-                hierarchy: context.hierarchy,
-                normals: context.normals,
-                area_before: context.area_before,
-            },
-            rays,
-            key,
-            self.pass.oracle.tau,
-        )
     }
 
     fn deposit(&mut self, receiver: &Receiver, unoccluded: Arrival, light: [f64; C]) {

@@ -88,7 +88,12 @@ pub struct Prover<'a> {
 
 impl<'a> Prover<'a> {
     /// Ready for the topmost pair; `None` for techniques that prove nothing.
-    pub fn new(guarantees: Option<&'a Guarantees>, config: &SolveConfig) -> Option<Self> {
+    /// `schedule` holds what other tasks learned.
+    pub fn new(
+        guarantees: Option<&'a Guarantees>,
+        config: &SolveConfig,
+        schedule: QuerySchedule,
+    ) -> Option<Self> {
         let guarantees = guarantees.filter(|_| config.technique.proves_visibility())?;
         let mut prover = Self {
             guarantees,
@@ -99,7 +104,7 @@ impl<'a> Prover<'a> {
             last_occluder: None,
             occlusion: OcclusionScratch::default(),
             visibility: VisibilityScratch::default(),
-            schedule: QuerySchedule::new(config.technique),
+            schedule,
         };
         prover.make_list(0);
         prover.lists[0].survivors = guarantees.whole_scene.clone();
@@ -219,6 +224,11 @@ impl<'a> Prover<'a> {
         is_short.then_some(&remaining.blockers)
     }
 
+    /// What was learned of queries.
+    pub fn into_schedule(self) -> QuerySchedule {
+        self.schedule
+    }
+
     fn make_list(&mut self, index: usize) {
         debug_assert_eq!(self.lists.len(), index);
         self.lists.push(Remaining {
@@ -230,4 +240,4 @@ impl<'a> Prover<'a> {
 }
 
 /// Polygons up to which testing eight segments natively is cheaper than asking Embree.
-const MOST_BLOCKERS: usize = 8;
+const MOST_BLOCKERS: usize = 16;

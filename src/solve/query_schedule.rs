@@ -46,6 +46,8 @@ pub enum Evidence {
     Clear,
     /// Some of each.
     Mixed,
+    /// None carries light.
+    Dark,
 }
 
 /// Attempts and successes of one kind of query at one size of pair.
@@ -67,6 +69,32 @@ impl Record {
         cost: 2.0 * QUERY_COST,
         skipped: 0,
     };
+
+    /// The mean of what several records learned, with the weight of all their attempts up to a limit.
+    fn after(records: impl Iterator<Item = Self>) -> Self {
+        let mut sum = Self {
+            attempts: 0.0,
+            successes: 0.0,
+            cost: 0.0,
+            skipped: 0,
+        };
+        for record in records {
+            sum.attempts += record.attempts - Self::PRIOR.attempts;
+            sum.successes += record.successes - Self::PRIOR.successes;
+            sum.cost += record.cost - Self::PRIOR.cost;
+        }
+        // Forgetting may leave less than the prior.
+        if sum.attempts <= 0.0 {
+            return Self::PRIOR;
+        }
+        let weight = (LEARNED / sum.attempts).min(1.0);
+        Self {
+            attempts: Self::PRIOR.attempts + weight * sum.attempts,
+            successes: Self::PRIOR.successes + weight * sum.successes.max(0.0),
+            cost: Self::PRIOR.cost + weight * sum.cost.max(0.0),
+            skipped: 0,
+        }
+    }
 
     fn learn(&mut self, success: bool, cost: f32) {
         self.attempts += 1.0;
@@ -94,6 +122,8 @@ impl Record {
 
 /// Attempts that a record remembers.
 const MEMORY: f32 = 64.0;
+/// Attempts of others that a record starts with at most.
+const LEARNED: f32 = 32.0;
 /// Queries left out in a row before one is made all the same.
 const RETRY_AFTER: u32 = 64;
 /// Sizes of pairs told apart: powers of two of the packets that a proof may save.
@@ -105,7 +135,7 @@ const QUERY_COST: f32 = 1.5;
 /// and a node or leaf of the scene with its polygons.
 const QUERY_BASE_COST: f32 = 0.5;
 const OCCLUDER_STEP_COST: f32 = 0.05;
-const NODE_COST: f32 = 1.5;
+const NODE_COST: f32 = 0.5;
 /// Nodes and leaves that any walk, and no walk but the paper's, may test.
 const LEAST_NODES: f32 = 8.0;
 const MOST_NODES: f32 = 32.0;
@@ -134,6 +164,22 @@ impl QuerySchedule {
         }
     }
 
+    /// What several schedules learned together, to start others with.
+    pub fn after<'a>(
+        technique: Technique,
+        schedules: impl Iterator<Item = &'a Self> + Clone,
+    ) -> Self {
+        let together = |records: fn(&Self) -> &[Record; SIZES]| {
+            std::array::from_fn(|size| Record::after(schedules.clone().map(|s| records(s)[size])))
+        };
+        Self {
+            technique,
+            occlusion: together(|s| &s.occlusion),
+            visibility: together(|s| &s.visibility),
+            either: together(|s| &s.either),
+        }
+    }
+
     /// Whether to look at a pair with `expected` packets to be cast below it, where the last one looked at
     /// above had `asked_at`.
     pub fn before_split(&mut self, expected: f32, asked_at: f32) -> Queries {
@@ -156,6 +202,10 @@ impl QuerySchedule {
                 Queries::Occlusion
             }
             Evidence::Clear if self.visibility[size].pays(expected) => Queries::Visibility,
+            Evidence::Dark => {
+                self.either[size].learn(false, PROBE_COST);
+                Queries::None
+            }
             Evidence::Mixed => {
                 self.either[size].learn(false, PROBE_COST);
                 self.shorten()
@@ -178,8 +228,8 @@ impl QuerySchedule {
         match queries {
             Queries::Both => WalkLimits::default(),
             Queries::Shorten => WalkLimits {
-                blocking_leaves: 4,
-                nodes: nodes.min(64),
+                blocking_leaves: 6,
+                nodes: 32,
             },
             _ => WalkLimits {
                 nodes,

@@ -33,11 +33,39 @@ struct Blocker {
     edges: [(DVec3, DVec3); 3],
 }
 
+/// The same in f32, to tell at half the price what no segment comes near.
+#[derive(Clone, Copy, Debug)]
+struct Outline {
+    normal: [f32; 3],
+    offset: f32,
+    edges: [([f32; 3], [f32; 3]); 3],
+}
+
+impl Outline {
+    fn new(blocker: &Blocker) -> Self {
+        let single = |v: DVec3| v.as_vec3().to_array();
+        Self {
+            normal: single(blocker.normal),
+            offset: blocker.offset as f32,
+            edges: blocker.edges.map(|(e, m)| (single(e), single(m))),
+        }
+    }
+}
+
+/// What heights in f32 may be wrong by: six roundings of terms that sum to less than 2, and the roundings of the
+/// normal and of the offset, each 2^-24.
+const HEIGHT_ERROR: f32 = 2.0e-6;
+/// Likewise for products of Plücker coordinates: a dozen roundings of terms below 2 each, those of the segment's own
+/// coordinates among them.
+const SIDE_ERROR: f32 = 2.0e-5;
+
 /// The polygons that may block the segments of one exchange. Filled and reused by a task, so that
 /// nothing is allocated once it has grown.
 #[derive(Clone, Debug)]
 pub struct BlockerList {
     blockers: Vec<Blocker>,
+    /// Parallel to `blockers`.
+    outlines: Vec<Outline>,
     /// Half of `tau`: a surely blocked segment has ends twice as deep, and one that crosses deeper
     /// than this comes within half of the weld distance of the polygon even when cut back.
     depth: f64,
@@ -50,6 +78,7 @@ impl BlockerList {
     pub fn new(scene: &SceneTree) -> Self {
         Self {
             blockers: Vec::new(),
+            outlines: Vec::new(),
             depth: 0.5 * f64::from(scene.tolerance.tau),
             pending: Vec::new(),
             arch: Arch::new(),
@@ -61,6 +90,7 @@ impl BlockerList {
     /// they surely block nothing.
     pub fn fill(&mut self, scene: &SceneTree, survivors: &SurvivorList, most: usize) -> bool {
         self.blockers.clear();
+        self.outlines.clear();
         self.pending.clear();
         for entry in survivors.entries() {
             self.pending.push((entry.reference(), entry.lanes));
@@ -99,14 +129,16 @@ impl BlockerList {
             PlaneKnown::Hairline => return true,
         }
         let (v, normal) = (polygon.corners.map(Vec3::as_dvec3), polygon.normal);
-        self.blockers.push(Blocker {
+        let blocker = Blocker {
             normal,
             offset: normal.dot(v[0]),
             edges: std::array::from_fn(|i| {
                 let edge = v[(i + 1) % 3] - v[i];
                 (edge, v[i].cross(edge))
             }),
-        });
+        };
+        self.outlines.push(Outline::new(&blocker));
+        self.blockers.push(blocker);
         true
     }
 
@@ -142,6 +174,14 @@ impl WithSimd for BlockedKernel<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> u8 {
+        let near = NearSegments::new(self.segments);
+        let mut first = 0;
+        while first < self.list.outlines.len() && !near.may_meet(&self.list.outlines[first]) {
+            first += 1;
+        }
+        if first == self.list.outlines.len() {
+            return 0;
+        }
         let mut p = [[0.0_f64; 8]; 3];
         let mut q = [[0.0_f64; 8]; 3];
         for axis in 0..3 {
@@ -161,7 +201,10 @@ impl WithSimd for BlockedKernel<'_> {
         }
         let depth = self.list.depth;
         let mut blocked = [0_u64; 8];
-        for blocker in &self.list.blockers {
+        for (index, blocker) in self.list.blockers.iter().enumerate().skip(first) {
+            if index > first && !near.may_meet(&self.list.outlines[index]) {
+                continue;
+            }
             let n = blocker.normal;
             let mut hp = [0.0_f64; 8];
             let mut hq = [0.0_f64; 8];
@@ -208,6 +251,72 @@ impl WithSimd for BlockedKernel<'_> {
             mask |= (lane as u8) << l;
         }
         mask
+    }
+}
+
+/// Eight segments in f32, with their Plücker coordinates.
+struct NearSegments<'a> {
+    segments: &'a SegmentOctet,
+    along: [[f32; 8]; 3],
+    moment: [[f32; 8]; 3],
+}
+
+impl<'a> NearSegments<'a> {
+    #[inline(always)]
+    fn new(segments: &'a SegmentOctet) -> Self {
+        let (p, q) = (&segments.from, &segments.to);
+        let mut along = [[0.0_f32; 8]; 3];
+        let mut moment = [[0.0_f32; 8]; 3];
+        for (axis, (i, j)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
+            for l in 0..8 {
+                along[axis][l] = q[axis][l] - p[axis][l];
+                moment[axis][l] = p[i][l] * q[j][l] - p[j][l] * q[i][l];
+            }
+        }
+        Self {
+            segments,
+            along,
+            moment,
+        }
+    }
+
+    /// False only if every segment surely misses the polygon.
+    #[inline(always)]
+    fn may_meet(&self, outline: &Outline) -> bool {
+        let (p, q) = (&self.segments.from, &self.segments.to);
+        let (n, offset) = (outline.normal, outline.offset);
+        let (mut up, mut down) = ([0_u32; 8], [0_u32; 8]);
+        for l in 0..8 {
+            let hp = n[0] * p[0][l] + n[1] * p[1][l] + n[2] * p[2][l] - offset;
+            let hq = n[0] * q[0][l] + n[1] * q[1][l] + n[2] * q[2][l] - offset;
+            up[l] = u32::from((hp < HEIGHT_ERROR) & (hq > -HEIGHT_ERROR));
+            down[l] = u32::from((hp > -HEIGHT_ERROR) & (hq < HEIGHT_ERROR));
+        }
+        let mut crossed = 0;
+        for l in 0..8 {
+            crossed |= up[l] | down[l];
+        }
+        if crossed == 0 {
+            return false;
+        }
+        let (s, t) = (&self.along, &self.moment);
+        for (e, m) in &outline.edges {
+            for l in 0..8 {
+                let g = e[0] * t[0][l]
+                    + e[1] * t[1][l]
+                    + e[2] * t[2][l]
+                    + m[0] * s[0][l]
+                    + m[1] * s[1][l]
+                    + m[2] * s[2][l];
+                up[l] &= u32::from(g > -SIDE_ERROR);
+                down[l] &= u32::from(g < SIDE_ERROR);
+            }
+        }
+        let mut met = 0;
+        for l in 0..8 {
+            met |= up[l] | down[l];
+        }
+        met != 0
     }
 }
 

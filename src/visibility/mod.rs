@@ -30,7 +30,8 @@ pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
 pub use sample_points::{PointOctet, Surface};
 pub use sampling::{
-    AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, sample_visibility,
+    AllClear, LEAST_COSINE, SampleCount, SampleOctet, SampledVisibility, SegmentTest,
+    sample_visibility,
 };
 pub use scene_tree::SceneTree;
 pub use survivors::SurvivorList;

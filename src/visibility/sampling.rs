@@ -109,7 +109,7 @@ pub struct SampledVisibility {
 
 /// How often an exchange whose samples all have a zero kernel is sampled afresh: elements that
 /// straddle each other's planes; after this many tries the light is below 1 in 4 x rays samples.
-const RETRIES: u32 = 4;
+const TRIES: u32 = 4;
 
 /// Least cosine at either end for a sample to carry light. A flatter ray is trimmed by more than a thousand tau, far
 /// enough to slip under a wall's edge; what it would carry is a millionth of a hemisphere.
@@ -124,7 +124,7 @@ pub fn sample_visibility(
     test: impl SegmentTest,
     source: &impl Surface,
     receiver: &impl Surface,
-    rays: u32,
+    samples: SampleCount,
     key: u64,
     tau: f32,
 ) -> SampledVisibility {
@@ -132,10 +132,29 @@ pub fn sample_visibility(
         test,
         source,
         receiver,
-        rays,
+        samples,
         key,
         tau,
     })
+}
+
+/// How many samples to take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleCount {
+    /// In a set.
+    pub rays: u32,
+    /// Sets to draw at most, until one carries light.
+    pub tries: u32,
+}
+
+impl SampleCount {
+    /// Of an exchange with `rays` rays.
+    pub fn of_exchange(rays: u32) -> Self {
+        Self { rays, tries: TRIES }
+    }
+
+    /// Of a probe: one packet, and no second look where that carries no light.
+    pub const PROBE: Self = Self { rays: 8, tries: 1 };
 }
 
 /// One exchange being sampled.
@@ -143,7 +162,7 @@ struct Sampling<'a, T, S, R> {
     test: T,
     source: &'a S,
     receiver: &'a R,
-    rays: u32,
+    samples: SampleCount,
     key: u64,
     tau: f32,
 }
@@ -158,9 +177,9 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
         let mut total_weight = 0.0f32;
         let mut clear_weight = 0.0f32;
         let mut swallowed = false;
-        for attempt in 0..RETRIES {
-            let mut index = attempt * self.rays;
-            let end = index + self.rays;
+        for attempt in 0..self.samples.tries {
+            let mut index = attempt * self.samples.rays;
+            let end = index + self.samples.rays;
             while index < end {
                 let lanes = (end - index).min(8);
                 let [u, v, s, t] = sequence.points(index);
