@@ -7,6 +7,7 @@ mod config;
 mod element;
 mod element_name;
 mod error;
+mod exchange;
 #[cfg(test)]
 mod fixture;
 mod form_factor;
@@ -35,6 +36,7 @@ mod solve;
 #[cfg(test)]
 mod solve_tests;
 mod statistics;
+mod walk;
 
 pub use claim_check::{ClaimCheck, Contradiction};
 pub use claims::{Claim, ClaimSample};

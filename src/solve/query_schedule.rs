@@ -108,9 +108,9 @@ impl Record {
         }
     }
 
-    /// True if the mean gain exceeds the mean cost; now and then in any case, lest a bad start lasts.
+    /// True if the mean gain clearly exceeds the mean cost; now and then in any case, lest a bad start lasts.
     fn pays(&mut self, gain: f32) -> bool {
-        let pays = self.successes * gain > self.cost;
+        let pays = self.successes * gain > CLEARLY * self.cost;
         if pays || self.skipped >= RETRY_AFTER {
             self.skipped = 0;
             return true;
@@ -126,6 +126,8 @@ const MEMORY: f32 = 64.0;
 const LEARNED: f32 = 32.0;
 /// Queries left out in a row before one is made all the same.
 const RETRY_AFTER: u32 = 64;
+/// Gain over cost from which a query pays: walks also push out of the caches what the exchanges need.
+const CLEARLY: f32 = 2.0;
 /// Sizes of pairs told apart: powers of two of the packets that a proof may save.
 const SIZES: usize = 16;
 /// Cost of eight probe rays and of a query, in packets of eight rays.

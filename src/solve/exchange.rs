@@ -1,0 +1,269 @@
+//! One exchange: radiosity x form factor x visibility, and where its visibility comes from (paper, section 4;
+//! design, section 6).
+
+use super::claim_check::Recording;
+use super::claims::Claim;
+use super::config::Technique;
+use super::element::Element;
+use super::form_factor::{Arrival, Flatness, Space, arrival};
+use super::pass::exchange_key;
+use super::query_schedule::Queries;
+use super::walk::{Known, Receiver, Source, Task};
+use crate::math::hash_u64;
+use crate::visibility::{AllClear, LEAST_COSINE, SampleCount, SampledVisibility, Verdict};
+
+/// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
+/// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
+const MEASURED_ONE_IN: u64 = 4;
+
+impl<const C: usize> Task<'_, '_, C> {
+    /// Transfers energy: radiosity x form factor x visibility.
+    pub(super) fn exchange(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        greatest: f64,
+        known: Known,
+    ) {
+        let context = self.pass.context;
+        let oracle = self.pass.oracle;
+        let (unoccluded, residual) = arrival(
+            &Space {
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                elements: context.elements,
+                normals: context.normals,
+                power_before: self.pass.power_before,
+                tau: context.tau,
+            },
+            &source.element,
+            &receiver.element,
+            Flatness {
+                source: oracle.is_flat_towards(&source.element, &receiver.element),
+                receiver: oracle.is_flat_towards(&receiver.element, &source.element),
+            },
+        );
+        if unoccluded.is_zero() {
+            return;
+        }
+        if oracle.refines_source(
+            &source.element,
+            &receiver.element,
+            greatest,
+            self.variance(source),
+        ) {
+            return self.split(source, receiver, known, true);
+        }
+        if oracle.refines_receiver(&receiver.element, greatest, residual) {
+            return self.split(source, receiver, known, false);
+        }
+        let queries = match &self.prover {
+            Some(prover) => prover.plan_before_exchange(known.knowledge),
+            None => Queries::None,
+        };
+        let known = self.prove(source, receiver, known, queries, 1.0);
+        let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
+            (Technique::Unoccluded, _) => 1.0,
+            (_, Verdict::Unknown) => {
+                let Some(sampled) = self.sampled(source, receiver, greatest, known) else {
+                    return;
+                };
+                sampled
+            }
+            (_, verdict) => {
+                if let Some(claim) = known.claim.filter(|_| self.pass.config.check_claims) {
+                    self.check(source, &receiver.element, claim);
+                }
+                match verdict {
+                    Verdict::Visible => {
+                        self.outcome.statistics.exchanges_visible += 1;
+                        self.visible_share(source, &receiver.element, greatest)
+                    }
+                    // Reached only while claims are being checked.
+                    _ => return,
+                }
+            }
+        };
+        self.outcome.statistics.exchanges += 1;
+        // Below zero where a second set stands for others that the first overrated.
+        if visibility != 0.0 {
+            let radiosity = self.radiosity(source).map(f64::from);
+            let light = radiosity.map(|b| b * f64::from(visibility));
+            self.deposit(receiver, unoccluded, light);
+        }
+    }
+
+    /// Visibility by samples, or `None` if the pair was split instead.
+    fn sampled(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        greatest: f64,
+        known: Known,
+    ) -> Option<f32> {
+        let mut sampled = self.sample_where_cheapest(source, &receiver.element, known, 0);
+        if self.refines_if_partial(source, &receiver.element, greatest) {
+            if !(sampled.all_blocked || sampled.all_clear) {
+                self.split_receiver(source, receiver, known.below());
+                return None;
+            }
+            // Samples that decide cannot measure as well: a slit that most sets of samples miss would pass light
+            // only where it is found and refined, and too little in the mean. What a few second sets find instead
+            // stands for all (a control variate, so that the mean is right).
+            if sampled.rays > 0 && self.measures_again(source, &receiver.element) {
+                let again = self.sample_where_cheapest(source, &receiver.element, known, 1);
+                sampled.visibility +=
+                    MEASURED_ONE_IN as f32 * (again.visibility - sampled.visibility);
+                sampled.all_blocked &= again.all_blocked;
+                sampled.all_clear &= again.all_clear;
+                sampled.rays_blocked += again.rays_blocked;
+            }
+        }
+        let statistics = &mut self.outcome.statistics;
+        // Where no sample carries light there was no ray, and nothing that stands in its way.
+        let blocked = sampled.all_blocked && sampled.rays_blocked > 0;
+        statistics.exchanges_blocked += u64::from(blocked);
+        statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
+        if blocked && self.outcome.blocked.is_wanted() {
+            self.keep_blocked(&source.element, &receiver.element);
+        }
+        Some(sampled.visibility)
+    }
+
+    /// Whether an exchange whose first samples agree casts a second set, which then counts for all the others.
+    fn measures_again(&self, source: &Source, receiver: &Element) -> bool {
+        let key = exchange_key(self.pass.key.wrapping_add(2), &source.element, receiver);
+        hash_u64(key).is_multiple_of(MEASURED_ONE_IN)
+    }
+
+    fn keep_blocked(&mut self, source: &Element, receiver: &Element) {
+        let pair = Claim {
+            pass: self.pass.pass,
+            source: source.name(),
+            receiver: receiver.name(),
+            occluder: None,
+        };
+        let key = exchange_key(self.pass.key, source, receiver);
+        self.outcome.blocked.offer(key, pair);
+    }
+
+    /// Casts an exchange's samples: natively against a short list of polygons, else through Embree.
+    fn sample_where_cheapest(
+        &mut self,
+        source: &Source,
+        receiver: &Element,
+        known: Known,
+        round: u64,
+    ) -> SampledVisibility {
+        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        if self.pass.config.technique == Technique::Blockers {
+            let list = self
+                .prover
+                .as_mut()
+                .and_then(|p| p.blockers(known.knowledge));
+            if let Some(list) = list {
+                let sampled = self.pass.sample(list, source, receiver, rays, round);
+                let statistics = &mut self.outcome.statistics;
+                statistics.native_rays += u64::from(sampled.rays);
+                statistics.native_rays_blocked += u64::from(sampled.rays_blocked);
+                return sampled;
+            }
+        }
+        let sampled = self
+            .pass
+            .sample(self.pass.context.embree, source, receiver, rays, round);
+        let statistics = &mut self.outcome.statistics;
+        statistics.rays += u64::from(sampled.rays);
+        statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        sampled
+    }
+
+    /// Whether the pair would be split were its samples partly blocked.
+    fn refines_if_partial(&self, source: &Source, receiver: &Element, greatest: f64) -> bool {
+        let oracle = &self.pass.oracle;
+        oracle.refines_shadow(&source.element, receiver, greatest)
+    }
+
+    /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
+    /// technique without proofs would find none either.
+    fn visible_share(&self, source: &Source, receiver: &Element, greatest: f64) -> f32 {
+        let is_open = |element: &Element| {
+            let context = self.pass.context;
+            let facet = context.hierarchy.facets[element.first_facet as usize];
+            !(element.is_triangle() && context.scene.contacts.touches(facet, &element.bounds))
+        };
+        if is_open(&source.element)
+            && is_open(receiver)
+            && source.element.faces_beyond(receiver, LEAST_COSINE)
+            && receiver.faces_beyond(&source.element, LEAST_COSINE)
+        {
+            return 1.0;
+        }
+        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        let first = self.pass.sample(AllClear, source, receiver, rays, 0);
+        if (first.all_clear || first.all_blocked)
+            && first.rays > 0
+            && self.refines_if_partial(source, receiver, greatest)
+            && self.measures_again(source, receiver)
+        {
+            let again = self.pass.sample(AllClear, source, receiver, rays, 1);
+            return first.visibility
+                + MEASURED_ONE_IN as f32 * (again.visibility - first.visibility);
+        }
+        first.visibility
+    }
+
+    /// Casts the rays that a claim saves, and judges those that disagree.
+    fn check(&mut self, source: &Source, receiver: &Element, claim: Claim) {
+        let Some(guarantees) = self.pass.context.guarantees else {
+            return;
+        };
+        let mut segments = std::mem::take(&mut self.segments);
+        segments.clear();
+        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        // Both sets that a technique without proofs might cast.
+        for round in 0..2 {
+            let recording = Recording {
+                test: self.pass.context.embree,
+                segments: &mut segments,
+            };
+            self.pass.sample(recording, source, receiver, rays, round);
+        }
+        self.outcome
+            .check
+            .judge(&guarantees.scene, claim, &segments);
+        self.segments = segments;
+    }
+
+    fn deposit(&mut self, receiver: &Receiver, unoccluded: Arrival, light: [f64; C]) {
+        match unoccluded {
+            Arrival::Linear(irradiance) => {
+                let element = &receiver.element;
+                let at = self.gatherer.patch(element.facet(), element.path);
+                for (corner, value) in self.gatherer.gathered[at].iter_mut().zip(irradiance) {
+                    for (sum, b) in corner.iter_mut().zip(light) {
+                        *sum += b * f64::from(value);
+                    }
+                }
+            }
+            Arrival::Field(vector) => {
+                let first = self.gatherer.first_facet as usize;
+                for facet in receiver.element.facet_range() {
+                    let irradiance = self.pass.context.normals[facet].dot(vector).max(0.0);
+                    for corner in &mut self.gatherer.gathered[facet - first] {
+                        for (sum, b) in corner.iter_mut().zip(light) {
+                            *sum += b * f64::from(irradiance);
+                        }
+                    }
+                }
+            }
+            Arrival::Vector(vector) => {
+                let vector = vector.as_dvec3();
+                let sums = &mut self.gatherer.vectors[receiver.local as usize];
+                for (sum, b) in sums.iter_mut().zip(light) {
+                    *sum += vector * b;
+                }
+            }
+        }
+    }
+}
