@@ -6,9 +6,9 @@ use super::claims::Claim;
 use super::config::Technique;
 use super::element::Element;
 use super::form_factor::{Arrival, Flatness, Space, arrival};
-use super::pass::exchange_key;
+use super::pair::{Known, Receiver, Source, exchange_key};
 use super::query_schedule::Queries;
-use super::walk::{Known, Receiver, Source, Task};
+use super::task::Task;
 use crate::math::hash_u64;
 use crate::visibility::{AllClear, LEAST_COSINE, SampleCount, SampledVisibility, Verdict};
 
@@ -16,15 +16,28 @@ use crate::visibility::{AllClear, LEAST_COSINE, SampleCount, SampledVisibility, 
 /// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
 const MEASURED_ONE_IN: u64 = 4;
 
+/// What becomes of a pair that was to exchange.
+#[derive(Clone, Copy)]
+pub(super) enum Next {
+    /// Nothing more.
+    Done,
+    /// The source's light is too uneven: on with its children.
+    SplitSource,
+    /// What arrives is too uneven: on with the receiver's children.
+    SplitReceiver,
+    /// A shadow's edge runs through the receiver: on with its children, with what is known now.
+    SplitShadow(Known),
+}
+
 impl<const C: usize> Task<'_, '_, C> {
-    /// Transfers energy: radiosity x form factor x visibility.
+    /// Transfers energy: radiosity x form factor x visibility. Or says that the pair has to be split after all.
     pub(super) fn exchange(
         &mut self,
         source: &Source,
         receiver: &Receiver,
         greatest: f64,
         known: Known,
-    ) {
+    ) -> Next {
         let context = self.pass.context;
         let oracle = self.pass.oracle;
         let (unoccluded, residual) = arrival(
@@ -44,7 +57,7 @@ impl<const C: usize> Task<'_, '_, C> {
             },
         );
         if unoccluded.is_zero() {
-            return;
+            return Next::Done;
         }
         if oracle.refines_source(
             &source.element,
@@ -52,10 +65,10 @@ impl<const C: usize> Task<'_, '_, C> {
             greatest,
             self.variance(source),
         ) {
-            return self.split(source, receiver, known, true);
+            return Next::SplitSource;
         }
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
-            return self.split(source, receiver, known, false);
+            return Next::SplitReceiver;
         }
         let queries = match &self.prover {
             Some(prover) => prover.plan_before_exchange(known.knowledge),
@@ -66,7 +79,7 @@ impl<const C: usize> Task<'_, '_, C> {
             (Technique::Unoccluded, _) => 1.0,
             (_, Verdict::Unknown) => {
                 let Some(sampled) = self.sampled(source, receiver, greatest, known) else {
-                    return;
+                    return Next::SplitShadow(known);
                 };
                 sampled
             }
@@ -80,7 +93,7 @@ impl<const C: usize> Task<'_, '_, C> {
                         self.visible_share(source, &receiver.element, greatest)
                     }
                     // Reached only while claims are being checked.
-                    _ => return,
+                    _ => return Next::Done,
                 }
             }
         };
@@ -91,9 +104,10 @@ impl<const C: usize> Task<'_, '_, C> {
             let light = radiosity.map(|b| b * f64::from(visibility));
             self.deposit(receiver, unoccluded, light);
         }
+        Next::Done
     }
 
-    /// Visibility by samples, or `None` if the pair was split instead.
+    /// Visibility by samples, or `None` if the pair is to be split instead.
     fn sampled(
         &mut self,
         source: &Source,
@@ -104,7 +118,6 @@ impl<const C: usize> Task<'_, '_, C> {
         let mut sampled = self.sample_where_cheapest(source, &receiver.element, known, 0);
         if self.refines_if_partial(source, &receiver.element, greatest) {
             if !(sampled.all_blocked || sampled.all_clear) {
-                self.split_receiver(source, receiver, known.below());
                 return None;
             }
             // Samples that decide cannot measure as well: a slit that most sets of samples miss would pass light

@@ -19,7 +19,9 @@ mod ledger;
 mod observer;
 mod oracle;
 mod ownership;
+mod pair;
 mod pass;
+mod pass_context;
 mod patch_split;
 mod prepared;
 mod prover;
@@ -36,6 +38,7 @@ mod solve;
 #[cfg(test)]
 mod solve_tests;
 mod statistics;
+mod task;
 mod walk;
 
 pub use claim_check::{ClaimCheck, Contradiction};
@@ -46,9 +49,9 @@ pub use element_name::ElementName;
 pub use error::SolveError;
 pub use guarantees::Guarantees;
 pub use observer::{Observer, Silent};
-pub use pass::PassOutcome;
 pub use prepared::{PreparedScene, StageSeconds};
 pub use snapshot::{Snapshot, SnapshotError};
 pub use solution::{PatchPath, Solution, SolvedPatch, split_triangle};
 pub use solve::{Solved, Solver, resume, solve};
 pub use statistics::{PassStatistics, PowerLedger};
+pub use task::PassOutcome;

@@ -1,25 +1,15 @@
 //! The walk of one task over pairs (source, receiver), from the root down, without storing links (Stamminger et al.
 //! 1998): what is split, what is proved, what is exchanged (paper, section 5.3).
 
-use super::claims::{Claim, ClaimSample};
-use super::config::SolveConfig;
-use super::element::{Element, Shape};
+use super::element::Shape;
+use super::exchange::Next;
 use super::oracle::Decision;
-use super::pass::{Pass, PassOutcome, exchange_key};
-use super::prover::{Knowledge, Proof, Prover};
+use super::pair::{Known, Receiver, Source};
+use super::prover::Prover;
 use super::push_pull::local_children;
-use super::query_schedule::{Evidence, Queries, QuerySchedule};
-use super::radiosity::Gatherer;
-use crate::cluster::{Hierarchy, NodeKind};
-use crate::math::NodeId;
-use crate::visibility::{SampleCount, Verdict};
-use glam::Vec3;
-
-/// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
-/// set of samples.
-fn packets_of_exchange(rays: u32) -> f32 {
-    1.2 * rays.div_ceil(8) as f32
-}
+use super::query_schedule::QuerySchedule;
+use super::task::{PassOutcome, Task};
+use crate::cluster::Hierarchy;
 
 /// Visits between two questions to the observer: a few hundred microseconds.
 const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
@@ -31,83 +21,8 @@ pub(super) struct TaskOutcome {
     pub(super) schedule: QuerySchedule,
 }
 
-/// A source in the walk: the element, and where its unshot radiosity stands.
-#[derive(Clone, Copy)]
-pub(super) struct Source {
-    pub(super) element: Element,
-    /// Owner of the facet; of use to triangles only.
-    pub(super) owner: u32,
-    /// Patch of the owner that holds the radiosity: itself, or the frozen leaf that it is a part of.
-    pub(super) slot: u32,
-}
-
-/// A receiver in the walk: the element, and a cluster's place in its owner's depth-first order.
-#[derive(Clone, Copy)]
-pub(super) struct Receiver {
-    pub(super) element: Element,
-    pub(super) local: u32,
-}
-
-/// What is known of a pair, and the claim that it rests on.
-#[derive(Clone, Copy)]
-pub(super) struct Known {
-    pub(super) knowledge: Knowledge,
-    pub(super) claim: Option<Claim>,
-}
-
-impl Known {
-    pub(super) const NOTHING: Self = Self {
-        knowledge: Knowledge::NOTHING,
-        claim: None,
-    };
-
-    pub(super) fn below(self) -> Self {
-        Self {
-            knowledge: self.knowledge.below(),
-            ..self
-        }
-    }
-
-    /// Nothing passes between occluded elements; only a check goes on, to cast their rays.
-    pub(super) fn ends_the_pair(self, config: &SolveConfig) -> bool {
-        self.knowledge.verdict == Verdict::Occluded && !config.check_claims
-    }
-}
-
-/// One owner's share of a pass.
-pub(super) struct Task<'a, 'g, const C: usize> {
-    pub(super) pass: &'a Pass<'a, C>,
-    pub(super) gatherer: &'g mut Gatherer<C>,
-    pub(super) prover: Option<Prover<'a>>,
-    pub(super) outcome: PassOutcome,
-    /// Segments of the exchange whose claim is being checked.
-    pub(super) segments: Vec<(Vec3, Vec3, bool)>,
-    pub(super) drop_budget: f64,
-    pub(super) visits: u32,
-}
-
-impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
-    pub(super) fn new(
-        pass: &'a Pass<'a, C>,
-        gatherer: &'g mut Gatherer<C>,
-        schedule: QuerySchedule,
-    ) -> Self {
-        let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
-        Self {
-            pass,
-            gatherer,
-            prover: Prover::new(pass.context.guarantees, pass.config, schedule),
-            outcome: PassOutcome {
-                claims: ClaimSample::new(pass.config.keep_claims),
-                blocked: ClaimSample::new(pass.config.keep_blocked),
-                ..PassOutcome::default()
-            },
-            segments: Vec::new(),
-            drop_budget: pass.drop_budget * share,
-            visits: 0,
-        }
-    }
-
+impl<const C: usize> Task<'_, '_, C> {
+    /// Runs the task of owner number `owner`.
     pub(super) fn run(mut self, owner: usize) -> TaskOutcome {
         let source = self.source_of_node(Hierarchy::ROOT);
         let receiver = Receiver {
@@ -121,42 +36,6 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             owner,
             outcome: self.outcome,
             schedule: self.prover.map_or_else(unlearned, Prover::into_schedule),
-        }
-    }
-
-    fn source_of_node(&self, id: NodeId) -> Source {
-        let context = &self.pass.context;
-        let node = context.hierarchy.node(id);
-        let (owner, slot) = if node.kind == NodeKind::Facet {
-            let owner = self.pass.owner_of_facet[node.first_facet as usize];
-            (
-                owner,
-                node.first_facet - self.pass.first_facets[owner as usize],
-            )
-        } else {
-            (0, 0)
-        };
-        Source {
-            element: context.elements[id.index()],
-            owner,
-            slot,
-        }
-    }
-
-    pub(super) fn radiosity(&self, source: &Source) -> &[f32; C] {
-        if source.element.is_triangle() {
-            &self.pass.shooters[source.owner as usize].unshot[source.slot as usize]
-        } else {
-            &self.pass.node_unshot[source.element.node.index()]
-        }
-    }
-
-    /// Relative variance of a source's unshot radiosity.
-    pub(super) fn variance(&self, source: &Source) -> f32 {
-        if source.element.is_triangle() {
-            self.pass.shooters[source.owner as usize].splits[source.slot as usize].variance
-        } else {
-            self.pass.node_variance[source.element.node.index()]
         }
     }
 
@@ -181,20 +60,19 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     || receiver.element.is_triangle();
                 self.split(source, receiver, known, by_source);
             }
-            Decision::Exchange => self.exchange(source, receiver, greatest, known),
+            Decision::Exchange => match self.exchange(source, receiver, greatest, known) {
+                Next::Done => {}
+                Next::SplitSource => self.split(source, receiver, known, true),
+                Next::SplitReceiver => self.split(source, receiver, known, false),
+                Next::SplitShadow(known) => self.split_receiver(source, receiver, known.below()),
+            },
             Decision::SplitSource => self.split(source, receiver, known, true),
             Decision::SplitReceiver => self.split(source, receiver, known, false),
         }
     }
 
     /// Asks for a guarantee where it is due, and goes on with the children of one end.
-    pub(super) fn split(
-        &mut self,
-        source: &Source,
-        receiver: &Receiver,
-        known: Known,
-        by_source: bool,
-    ) {
+    fn split(&mut self, source: &Source, receiver: &Receiver, known: Known, by_source: bool) {
         let known = self.prove_before_split(source, receiver, known);
         if known.ends_the_pair(self.pass.config) {
             return;
@@ -204,96 +82,6 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         } else {
             self.split_receiver(source, receiver, known.below());
         }
-    }
-
-    fn prove_before_split(&mut self, source: &Source, receiver: &Receiver, known: Known) -> Known {
-        if self.prover.is_none() || known.knowledge.verdict != Verdict::Unknown {
-            return known;
-        }
-        let greatest = self.greatest(source);
-        let Some(prover) = &mut self.prover else {
-            return known;
-        };
-        let (from, to) = (&source.element, &receiver.element);
-        let expected = self.pass.oracle.expected_exchanges(from, to, greatest)
-            * packets_of_exchange(self.pass.config.rays);
-        let mut queries = prover.plan_before_split(from, to, known.knowledge, expected);
-        if queries == Queries::Probe {
-            let evidence = self.probe(source, to);
-            queries = self.after(evidence, expected);
-        }
-        self.prove(source, receiver, known, queries, expected)
-    }
-
-    fn after(&mut self, evidence: Evidence, expected: f32) -> Queries {
-        match &mut self.prover {
-            Some(prover) => prover.after_evidence(evidence, expected),
-            None => Queries::None,
-        }
-    }
-
-    /// What eight rays say of a pair.
-    fn probe(&mut self, source: &Source, receiver: &Element) -> Evidence {
-        let sampled = self.pass.sample(
-            self.pass.context.embree,
-            source,
-            receiver,
-            SampleCount::PROBE,
-            0,
-        );
-        self.outcome.statistics.rays += u64::from(sampled.rays);
-        self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
-        match sampled.rays {
-            0 => Evidence::Dark,
-            n if sampled.rays_blocked == n => Evidence::Blocked,
-            _ if sampled.rays_blocked == 0 => Evidence::Clear,
-            _ => Evidence::Mixed,
-        }
-    }
-
-    /// Asks the prover, if there is one, and keeps a new claim.
-    pub(super) fn prove(
-        &mut self,
-        source: &Source,
-        receiver: &Receiver,
-        known: Known,
-        queries: Queries,
-        expected: f32,
-    ) -> Known {
-        let Some(prover) = self.prover.as_mut().filter(|_| queries != Queries::None) else {
-            return known;
-        };
-        let proof: Proof = prover.ask(
-            &source.element,
-            &receiver.element,
-            known.knowledge,
-            queries,
-            expected,
-            &mut self.outcome.statistics,
-        );
-        let is_new = proof.knowledge.verdict != known.knowledge.verdict;
-        let claim = match is_new {
-            true => Some(Claim {
-                pass: self.pass.pass,
-                source: source.element.name(),
-                receiver: receiver.element.name(),
-                occluder: proof.occluder,
-            }),
-            false => known.claim,
-        };
-        if let Some(claim) = claim.filter(|_| is_new && self.outcome.claims.is_wanted()) {
-            let key = exchange_key(self.pass.key, &source.element, &receiver.element);
-            self.outcome.claims.offer(key, claim);
-        }
-        Known {
-            knowledge: proof.knowledge,
-            claim,
-        }
-    }
-
-    /// Unshot radiosity of a source, greatest channel.
-    fn greatest(&self, source: &Source) -> f64 {
-        f64::from(self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x)))
     }
 
     fn is_interrupted(&mut self) -> bool {
@@ -329,7 +117,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    pub(super) fn split_receiver(&mut self, source: &Source, receiver: &Receiver, known: Known) {
+    fn split_receiver(&mut self, source: &Source, receiver: &Receiver, known: Known) {
         let context = self.pass.context;
         if let Shape::Triangle(corners) = receiver.element.shape {
             for which in 0..4 {

@@ -1,0 +1,102 @@
+//! What all tasks of a pass share and only read, and how a pair is sampled from it.
+
+use super::config::SolveConfig;
+use super::element::Element;
+use super::guarantees::Guarantees;
+use super::observer::Observer;
+use super::oracle::Oracle;
+use super::pair::{Source, exchange_key};
+use super::radiosity::Shooter;
+use super::sampled_element::{ReceiverSurface, SourceSurface};
+use crate::cluster::Hierarchy;
+use crate::embree::CommittedScene;
+use crate::scene::Scene;
+use crate::visibility::{SampleCount, SampledVisibility, SegmentTest, sample_visibility};
+use glam::Vec3;
+use pulp::Arch;
+
+/// What stays the same during a solve.
+#[derive(Clone, Copy)]
+pub struct SolveContext<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its hierarchy.
+    pub hierarchy: &'a Hierarchy,
+    /// Its polygons, in Embree.
+    pub embree: &'a CommittedScene,
+    /// What the guaranteed tests stand on, where the technique asks for them.
+    pub guarantees: Option<&'a Guarantees>,
+    /// The element of each node.
+    pub elements: &'a [Element],
+    /// Unit normal of each facet.
+    pub normals: &'a [Vec3],
+    /// Sum of the areas of the facets before each facet, and of all at the end.
+    pub area_before: &'a [f64],
+    /// Area of the scene, one side of each polygon, normalised.
+    pub polygon_area: f64,
+    /// Depth below a surface within which nothing blocks, normalised.
+    pub tau: f32,
+    /// Who watches.
+    pub observer: &'a dyn Observer,
+}
+
+/// What stays the same during a pass.
+#[derive(Clone, Copy)]
+pub(super) struct Pass<'a, const C: usize> {
+    pub(super) context: SolveContext<'a>,
+    pub(super) shooters: &'a [Shooter<C>],
+    pub(super) node_unshot: &'a [[f32; C]],
+    pub(super) node_variance: &'a [f32],
+    pub(super) power_before: &'a [f64],
+    pub(super) owner_of_facet: &'a [u32],
+    pub(super) first_facets: &'a [u32],
+    pub(super) oracle: Oracle,
+    pub(super) config: &'a SolveConfig,
+    pub(super) pass: u32,
+    /// Hash of the seed and the pass.
+    pub(super) key: u64,
+    /// Power that all owners together may drop.
+    pub(super) drop_budget: f64,
+    pub(super) arch: Arch,
+}
+
+impl<const C: usize> Pass<'_, C> {
+    /// Casts the samples of a pair.
+    pub(super) fn sample(
+        &self,
+        test: impl SegmentTest,
+        source: &Source,
+        receiver: &Element,
+        samples: SampleCount,
+        round: u64,
+    ) -> SampledVisibility {
+        let context = self.context;
+        let key = exchange_key(self.key.wrapping_add(round), &source.element, receiver);
+        sample_visibility(
+            self.arch,
+            test,
+            &SourceSurface {
+                element: &source.element,
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                normals: context.normals,
+                power_before: self.power_before,
+                shooters: self.shooters,
+                owner_of_facet: self.owner_of_facet,
+                first_facets: self.first_facets,
+                owner: source.owner,
+                slot: source.slot,
+            },
+            &ReceiverSurface {
+                element: receiver,
+                scene: context.scene,
+                hierarchy: context.hierarchy,
+                normals: context.normals,
+                area_before: context.area_before,
+            },
+            samples,
+            key,
+            self.oracle.tau,
+        )
+    }
+}

@@ -1,0 +1,205 @@
+//! One task of a pass: an owner's receivers, what it knows of its pairs, and when it asks for guarantees (paper,
+//! section 5.3).
+
+use super::claim_check::ClaimCheck;
+use super::claims::{Claim, ClaimSample};
+use super::element::Element;
+use super::pair::{Known, Receiver, Source, exchange_key};
+use super::pass_context::Pass;
+use super::prover::{Proof, Prover};
+use super::query_schedule::{Evidence, Queries, QuerySchedule};
+use super::radiosity::Gatherer;
+use super::statistics::PassStatistics;
+use crate::cluster::NodeKind;
+use crate::math::NodeId;
+use crate::visibility::{SampleCount, Verdict};
+use glam::Vec3;
+
+/// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
+/// set of samples.
+fn packets_of_exchange(rays: u32) -> f32 {
+    1.2 * rays.div_ceil(8) as f32
+}
+
+/// What a pass did.
+#[derive(Clone, Debug, Default)]
+pub struct PassOutcome {
+    /// Counts; `seconds` and `unshot` are left to the caller.
+    pub statistics: PassStatistics,
+    /// Power dropped, greatest channel, an upper bound.
+    pub dropped: f64,
+    /// True when the observer asked to stop: the light is then worth nothing.
+    pub interrupted: bool,
+    /// Claims kept for an audit.
+    pub claims: ClaimSample,
+    /// What the rays of claimed exchanges said, where they were cast.
+    pub check: ClaimCheck,
+    /// Exchanges kept whose rays were all blocked.
+    pub blocked: ClaimSample,
+}
+
+/// One owner's share of a pass.
+pub(super) struct Task<'a, 'g, const C: usize> {
+    pub(super) pass: &'a Pass<'a, C>,
+    pub(super) gatherer: &'g mut Gatherer<C>,
+    pub(super) prover: Option<Prover<'a>>,
+    pub(super) outcome: PassOutcome,
+    /// Segments of the exchange whose claim is being checked.
+    pub(super) segments: Vec<(Vec3, Vec3, bool)>,
+    pub(super) drop_budget: f64,
+    pub(super) visits: u32,
+}
+
+impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
+    pub(super) fn new(
+        pass: &'a Pass<'a, C>,
+        gatherer: &'g mut Gatherer<C>,
+        schedule: QuerySchedule,
+    ) -> Self {
+        let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
+        Self {
+            pass,
+            gatherer,
+            prover: Prover::new(pass.context.guarantees, pass.config, schedule),
+            outcome: PassOutcome {
+                claims: ClaimSample::new(pass.config.keep_claims),
+                blocked: ClaimSample::new(pass.config.keep_blocked),
+                ..PassOutcome::default()
+            },
+            segments: Vec::new(),
+            drop_budget: pass.drop_budget * share,
+            visits: 0,
+        }
+    }
+
+    pub(super) fn source_of_node(&self, id: NodeId) -> Source {
+        let context = &self.pass.context;
+        let node = context.hierarchy.node(id);
+        let (owner, slot) = if node.kind == NodeKind::Facet {
+            let owner = self.pass.owner_of_facet[node.first_facet as usize];
+            (
+                owner,
+                node.first_facet - self.pass.first_facets[owner as usize],
+            )
+        } else {
+            (0, 0)
+        };
+        Source {
+            element: context.elements[id.index()],
+            owner,
+            slot,
+        }
+    }
+
+    pub(super) fn radiosity(&self, source: &Source) -> &[f32; C] {
+        if source.element.is_triangle() {
+            &self.pass.shooters[source.owner as usize].unshot[source.slot as usize]
+        } else {
+            &self.pass.node_unshot[source.element.node.index()]
+        }
+    }
+
+    /// Unshot radiosity of a source, greatest channel.
+    pub(super) fn greatest(&self, source: &Source) -> f64 {
+        f64::from(self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x)))
+    }
+
+    /// Relative variance of a source's unshot radiosity.
+    pub(super) fn variance(&self, source: &Source) -> f32 {
+        if source.element.is_triangle() {
+            self.pass.shooters[source.owner as usize].splits[source.slot as usize].variance
+        } else {
+            self.pass.node_variance[source.element.node.index()]
+        }
+    }
+
+    pub(super) fn prove_before_split(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        known: Known,
+    ) -> Known {
+        if self.prover.is_none() || known.knowledge.verdict != Verdict::Unknown {
+            return known;
+        }
+        let greatest = self.greatest(source);
+        let Some(prover) = &mut self.prover else {
+            return known;
+        };
+        let (from, to) = (&source.element, &receiver.element);
+        let expected = self.pass.oracle.expected_exchanges(from, to, greatest)
+            * packets_of_exchange(self.pass.config.rays);
+        let mut queries = prover.plan_before_split(from, to, known.knowledge, expected);
+        if queries == Queries::Probe {
+            let evidence = self.probe(source, to);
+            queries = self.after(evidence, expected);
+        }
+        self.prove(source, receiver, known, queries, expected)
+    }
+
+    /// Asks the prover, if there is one, and keeps a new claim.
+    pub(super) fn prove(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        known: Known,
+        queries: Queries,
+        expected: f32,
+    ) -> Known {
+        let Some(prover) = self.prover.as_mut().filter(|_| queries != Queries::None) else {
+            return known;
+        };
+        let proof: Proof = prover.ask(
+            &source.element,
+            &receiver.element,
+            known.knowledge,
+            queries,
+            expected,
+            &mut self.outcome.statistics,
+        );
+        let is_new = proof.knowledge.verdict != known.knowledge.verdict;
+        let claim = match is_new {
+            true => Some(Claim {
+                pass: self.pass.pass,
+                source: source.element.name(),
+                receiver: receiver.element.name(),
+                occluder: proof.occluder,
+            }),
+            false => known.claim,
+        };
+        if let Some(claim) = claim.filter(|_| is_new && self.outcome.claims.is_wanted()) {
+            let key = exchange_key(self.pass.key, &source.element, &receiver.element);
+            self.outcome.claims.offer(key, claim);
+        }
+        Known {
+            knowledge: proof.knowledge,
+            claim,
+        }
+    }
+
+    /// What eight rays say of a pair.
+    fn probe(&mut self, source: &Source, receiver: &Element) -> Evidence {
+        let sampled = self.pass.sample(
+            self.pass.context.embree,
+            source,
+            receiver,
+            SampleCount::PROBE,
+            0,
+        );
+        self.outcome.statistics.rays += u64::from(sampled.rays);
+        self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        match sampled.rays {
+            0 => Evidence::Dark,
+            n if sampled.rays_blocked == n => Evidence::Blocked,
+            _ if sampled.rays_blocked == 0 => Evidence::Clear,
+            _ => Evidence::Mixed,
+        }
+    }
+
+    fn after(&mut self, evidence: Evidence, expected: f32) -> Queries {
+        match &mut self.prover {
+            Some(prover) => prover.after_evidence(evidence, expected),
+            None => Queries::None,
+        }
+    }
+}
