@@ -2,6 +2,7 @@
 
 use super::batch_args::BatchCommand;
 use super::byte_size::{ByteSize, parse_byte_size};
+use super::error_budget_command::ErrorBudgetCommand;
 use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{
     OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
@@ -59,6 +60,8 @@ pub enum Command {
     Compare(CompareCommand),
     /// Speed against accuracy: solve a scene at many settings, each compared with a reference.
     Sweep(SweepCommand),
+    /// Where the error of a solve comes from: each approximation in turn made nearly exact.
+    ErrorBudget(ErrorBudgetCommand),
     /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
     Occluders(OccludersCommand),
     /// Check the guarantees of a solve: replay its proofs in exact arithmetic, attack them with rays.

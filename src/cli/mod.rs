@@ -13,6 +13,7 @@ mod clusters_command;
 mod compare_command;
 mod defaults;
 mod error;
+mod error_budget_command;
 mod error_command;
 mod flag_vocabulary;
 mod generate_command;

@@ -107,7 +107,7 @@ fn sweep_and_write(
 }
 
 /// A reference of another scene is better refused than compared with.
-fn check_faces(records: &[ReferenceFace], scene: &Scene) -> Result<(), CliError> {
+pub fn check_faces(records: &[ReferenceFace], scene: &Scene) -> Result<(), CliError> {
     let stranger = records
         .iter()
         .find(|record| record.face_index >= scene.source_faces);

@@ -9,6 +9,7 @@ mod continuous_surface;
 mod detection;
 mod dice;
 mod element_points;
+mod error_budget;
 mod flat_polygon;
 mod pareto;
 mod polygon_boxes;
@@ -26,6 +27,7 @@ pub use comparison::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, Times, compare, summarise,
 };
 pub use detection::{Detection, DetectionConfig, detection};
+pub use error_budget::{Approximation, BudgetLine, BudgetedError, ErrorBudget, error_budget};
 pub use pareto::pareto_front;
 pub use processor_time::processor_seconds;
 pub use regression::{

@@ -367,3 +367,48 @@ fn presets_give_what_no_flag_does() {
         .says(&["draft", "normal", "high"]);
     assert!(folder.line("solve --help").stdout.contains("--quality"));
 }
+
+#[test]
+fn an_error_budget_has_a_line_an_approximation() {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder
+        .line("reference builtin:cornell --out ref.json --max-seconds 2")
+        .ends_with(0, "reference");
+    let run = folder.line(
+        "error-budget builtin:cornell --reference ref.json --json budget.json --seeds 2 --quiet \
+         --epsilon 1e-2 --gradient 0.1 --min-area 1e-3 --rays 4",
+    );
+    run.ends_with(0, "budget");
+    let budget = json(&folder, "budget.json");
+    let lines = budget["lines"].as_array().unwrap();
+    assert_eq!(lines.len(), 7);
+    let line = |name: &str| {
+        let found = lines.iter().find(|l| l["approximation"] == name);
+        found.unwrap_or_else(|| panic!("{name} is missing"))
+    };
+    let rms = |error: &Value| error["error"]["relative_rms"].as_f64().unwrap();
+    // Proofs change no light; with everything nearly exact little error is left.
+    assert_eq!(rms(line("proofs")), rms(&budget));
+    assert!(rms(line("all")) < 0.75 * rms(&budget), "{budget}");
+    let removed = line("all")["removed"].as_f64().unwrap();
+    let left = (rms(line("all")) / rms(&budget)).powi(2);
+    assert!((removed - (1.0 - left)).abs() < 1e-12);
+    let chance = budget["chance"].as_f64().unwrap();
+    assert!(chance > 0.0 && chance < 1.5, "{chance}");
+    assert!(
+        run.stdout.contains("| sampled visibility: rays x 16"),
+        "{}",
+        run.stdout
+    );
+    for line in [
+        "error-budget room.obj",
+        "error-budget room.obj --reference missing.json",
+        "error-budget room.obj --reference room.obj",
+        "error-budget room.obj --reference ref.json --seeds 1",
+        "error-budget room.obj --reference ref.json --epsilon 0",
+        "error-budget missing.obj --reference ref.json",
+    ] {
+        folder.line(line).ends_with(2, line);
+    }
+}

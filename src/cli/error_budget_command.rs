@@ -1,0 +1,120 @@
+//! `certilux error-budget`: where the error of a solve comes from.
+
+use super::error::CliError;
+use super::progress::Progress;
+use super::scene_source::load_scene;
+use super::session::{Session, print_line};
+use super::solve_args::{SceneArgs, SolveArgs};
+use super::solve_command::with_threads;
+use super::sweep_command::check_faces;
+use crate::embree::DeviceConfig;
+use crate::experiment::{BudgetedError, ErrorBudget, error_budget};
+use crate::output::{read_reference, true_faces, write_json};
+use crate::solve::{PreparedScene, SolveConfig};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// `certilux error-budget`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Each approximation in turn is made nearly exact, the others left as they are. What goes of the squared error is what the \
+                  approximation was worth; shares need not add up to one. The reference's noise is taken off."
+)]
+pub struct ErrorBudgetCommand {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// What to compare with (certilux reference).
+    #[arg(long, value_name = "REF.json")]
+    pub reference: PathBuf,
+    /// Solves with different seeds, to tell chance from the rest.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    pub seeds: u32,
+    /// The figures for programs.
+    #[arg(long, value_name = "FILE.json")]
+    pub json: Option<PathBuf>,
+    /// How to solve.
+    #[command(flatten)]
+    pub solve: SolveArgs,
+}
+
+/// Prints the table.
+pub fn run(session: &Session, command: &ErrorBudgetCommand) -> Result<(), CliError> {
+    let config = command.solve.config()?;
+    with_threads(command.scene.threads, || budget(session, command, &config))
+}
+
+/// What `--json` writes.
+#[derive(Serialize)]
+struct BudgetFile<'a> {
+    format: u32,
+    certilux: &'a str,
+    embree: String,
+    command: &'a [String],
+    scene: &'a str,
+    #[serde(flatten)]
+    budget: &'a ErrorBudget,
+}
+
+fn budget(
+    session: &Session,
+    command: &ErrorBudgetCommand,
+    config: &SolveConfig,
+) -> Result<(), CliError> {
+    let records = read_reference(&command.reference).map_err(CliError::Solution)?;
+    let scene = session.stops_at_once(|| load_scene(&command.scene))?;
+    check_faces(&records, &scene)?;
+    let truth = true_faces(&records, Some(&scene))?;
+    let prepared = PreparedScene::new(
+        scene,
+        command.scene.sides_mode(),
+        config.seed,
+        &DeviceConfig::default(),
+    )?
+    .with_guarantees(config.technique, &command.solve.occluders.config());
+    let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
+    let budget = error_budget(&prepared, &truth, config, command.seeds, &progress)?;
+    drop(progress);
+    print_budget(&prepared.scene.name, &budget);
+    if let Some(path) = &command.json {
+        let file = BudgetFile {
+            format: 1,
+            certilux: env!("CARGO_PKG_VERSION"),
+            embree: prepared.embree_version.to_string(),
+            command: &session.words,
+            scene: &prepared.scene.name,
+            budget: &budget,
+        };
+        write_json(path, &file, &session.interrupted)?;
+    }
+    Ok(())
+}
+
+/// The table is the result, not progress: `--quiet` leaves it.
+fn print_budget(scene: &str, budget: &ErrorBudget) {
+    let line = |what: &str, error: &BudgetedError, removed: &str| {
+        print_line(format_args!(
+            "| {what:36} | {:>8.3} | {:>+8.3} | {removed:>10} | {:>9.2} |",
+            100.0 * error.relative_rms,
+            100.0 * error.bias,
+            error.processor_seconds
+        ));
+    };
+    print_line(format_args!(
+        "{scene}: noise of the reference {:.3} %, taken off; {:.0} % of the squared error is chance ({} seeds)",
+        100.0 * budget.reference_noise,
+        100.0 * budget.chance,
+        budget.seeds
+    ));
+    print_line(format_args!(
+        "| {:36} | {:>8} | {:>8} | {:>10} | {:>9} |",
+        "made nearly exact", "error %", "bias %", "removed %", "seconds"
+    ));
+    print_line(format_args!("|---|---|---|---|---|"));
+    line("nothing", &budget.error, "");
+    for row in &budget.lines {
+        let removed = format!("{:.0}", 100.0 * row.removed);
+        line(row.approximation.change(), &row.error, &removed);
+    }
+}
