@@ -34,9 +34,9 @@ SCENES = {
 # Runs of Mitsuba that make a reference, where it is not ours, or are held against ours.
 REFERENCE_SEEDS = 16
 # Ladders, from cheap to dear; each is climbed until the error is below the target.
-SAMPLES = [1 << k for k in range(12, 30)]
+SAMPLES = [1 << k for k in range(14, 30)]
 EPSILONS = ["1e-2", "1e-3", "3e-4", "1e-4", "3e-5", "1e-5", "3e-6", "1e-6"]
-CONVERGE = ["1e-2", "1e-3"]
+RAYS = [8, 16]
 # Points and ambient settings of rtrace.
 RADIANCE = [
     (1000, "-ab 4 -ad 128 -as 0 -aa 0.3 -ar 16"),
@@ -156,9 +156,9 @@ class Bench:
         command = [self.python, HERE / "radiance_faces.py", self.obj, self.wanted]
         return processor_seconds([*command, points, settings, self.found], env=self.environment)
 
-    def certilux(self, epsilon: str, converge: str, seed: int) -> float:
+    def certilux(self, epsilon: str, rays: int, seed: int) -> float:
         solved = self.folder / "solved"
-        flags = ["--epsilon", epsilon, "--converge", converge, "--seed", seed, "--no-view", "--quiet"]
+        flags = ["--epsilon", epsilon, "--rays", rays, "--seed", seed, "--no-view", "--quiet"]
         program = self.options.certilux
         seconds = processor_seconds([program, "solve", self.obj, "--out", solved, *flags])
         report = self.folder / "error.json"
@@ -204,9 +204,9 @@ class Bench:
         # Once without the clock: kernels are compiled and kept.
         self.mitsuba(SAMPLES[0], 1)
         rows = self.ladder("mitsuba", SAMPLES, self.mitsuba, seeds)
-        for converge in CONVERGE:
-            run = lambda epsilon, seed: self.certilux(epsilon, converge, seed)
-            rows += self.ladder(f"certilux --converge {converge}", EPSILONS, run, seeds)
+        for rays in RAYS:
+            run = lambda epsilon, seed: self.certilux(epsilon, rays, seed)
+            rows += self.ladder(f"certilux --rays {rays}", EPSILONS, run, seeds)
         if not self.options.without_radiance:
             run = lambda step, _: self.radiance(*step)
             rows += self.ladder("radiance", RADIANCE, run, [1])
