@@ -1,6 +1,6 @@
 # Every recipe stands alone on a fresh machine: set-up comes first and does nothing the second time.
 
-.PHONY: help setup demo test check check-long bench fuzz
+.PHONY: help setup demo test check check-long bench fuzz deb
 .DEFAULT_GOAL := help
 
 help:
@@ -10,6 +10,7 @@ help:
 	@echo 'make fuzz        FUZZ_SECONDS=15 of fuzzing a target'
 	@echo 'make check-long  what takes too long for every change'
 	@echo 'make bench       Embree packet benchmarks (bench/)'
+	@echo 'make deb         a Debian package, on Debian 13 with its Embree (needs cargo-deb)'
 	@echo 'make setup       only bring what the build needs'
 
 setup:
@@ -50,3 +51,13 @@ check-long: setup
 
 bench: setup
 	cargo bench --features c-baseline --bench embree_packets
+
+# Manual pages and completions are made by the program that is packaged.
+deb: setup
+	cargo build --release --locked
+	mkdir -p target/manual
+	target/release/certilux --quiet --no-config man --out target/manual/man1
+	target/release/certilux completions bash > target/manual/certilux.bash
+	target/release/certilux completions zsh > target/manual/_certilux
+	target/release/certilux completions fish > target/manual/certilux.fish
+	cargo deb --no-build --locked

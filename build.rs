@@ -10,6 +10,9 @@
 //!
 //! Headers older than 4.3 are passed over in 2 and 3, because their layouts differ.
 //!
+//! Documentation tests get no rpath. They find the library through a link in `OUT_DIR`, which cargo puts on
+//! the search path of what it runs.
+//!
 //! The library's directory is written as rpath into the package's own binaries, tests, examples
 //! and benches. `cargo:rustc-link-arg` does not reach a crate that depends on this one: such a
 //! crate's build script reads `DEP_CERTILUX_EMBREE_LIB_DIR` (and `DEP_CERTILUX_EMBREE_RPATH`,
@@ -58,8 +61,27 @@ fn main() {
         println!("cargo:rpath={}", embree.lib.display());
     }
 
+    link_for_doctests(&embree);
     compile_shim(&embree);
     bind_shim(&embree);
+}
+
+/// Cargo searches at run time what is searched at link time below its own target folder, and nothing else.
+fn link_for_doctests(embree: &Embree) {
+    if embree.system || !cfg!(unix) {
+        return;
+    }
+    let folder = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo")).join("run");
+    fs::create_dir_all(&folder).expect("cargo's OUT_DIR is writable");
+    let libraries = fs::read_dir(&embree.lib).into_iter().flatten().flatten();
+    for library in libraries {
+        let link = folder.join(library.file_name());
+        // What an earlier build left may point elsewhere.
+        let _ = fs::remove_file(&link);
+        #[cfg(unix)]
+        let _ = std::os::unix::fs::symlink(library.path(), &link);
+    }
+    println!("cargo:rustc-link-search=native={}", folder.display());
 }
 
 fn find_embree(root: &Path) -> Result<Embree, String> {

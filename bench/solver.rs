@@ -39,11 +39,9 @@ fn pass(
     threads: usize,
     passes: u32,
 ) -> Result<(f64, u64), Box<dyn Error>> {
-    let config = SolveConfig {
-        technique,
-        stop: Stop::Passes(passes),
-        ..SolveConfig::default()
-    };
+    let mut config = SolveConfig::default();
+    config.technique = technique;
+    config.stop = Stop::Passes(passes);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;

@@ -343,9 +343,8 @@ fn what_is_no_file_is_refused() {
 
 #[test]
 fn a_reflectance_of_one_can_be_clamped() {
-    let config = LoadConfig {
-        clamp_reflectance: true,
-    };
+    let mut config = LoadConfig::default();
+    config.clamp_reflectance = true;
     let scene = load_file(&folder("invalid").join("reflectance.obj"), &config).unwrap();
     assert_eq!(scene.surfaces[0].reflectance, [0.999; 3]);
     assert_eq!(scene.warnings.len(), 1);
@@ -452,7 +451,9 @@ proptest! {
     ) {
         let (obj, mtl) = (obj.concat(), mtl.concat());
         let files: [(&str, &[u8]); 1] = [("m.mtl", &mtl)];
-        if let Ok(scene) = load_text("fuzz", &obj, &files, &LoadConfig { clamp_reflectance }) {
+        let mut config = LoadConfig::default();
+        config.clamp_reflectance = clamp_reflectance;
+        if let Ok(scene) = load_text("fuzz", &obj, &files, &config) {
             for i in 0..scene.polygons.len() {
                 let [a, b, c] = scene.corners(certilux::math::PolygonId::new(i));
                 prop_assert!(a != b && b != c && c != a);

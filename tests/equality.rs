@@ -53,14 +53,12 @@ fn first_pass(
     rays: u32,
     epsilon: f64,
 ) -> Faces {
-    let config = SolveConfig {
-        technique,
-        stride,
-        rays,
-        epsilon,
-        stop: Stop::Passes(1),
-        ..SolveConfig::default()
-    };
+    let mut config = SolveConfig::default();
+    config.technique = technique;
+    config.stride = stride;
+    config.rays = rays;
+    config.epsilon = epsilon;
+    config.stop = Stop::Passes(1);
     let solved = solve(prepared, &config, &Silent).expect("solves");
     let solution = &solved.solution;
     let mut faces = Faces {

@@ -86,9 +86,8 @@ fn a_white_texture_reflects_too_much() {
             texture: Some("halves.png".into())
         }
     );
-    let config = LoadConfig {
-        clamp_reflectance: true,
-    };
+    let mut config = LoadConfig::default();
+    config.clamp_reflectance = true;
     let scene = load(mtl, &halves(255), &config).unwrap();
     assert_near(&red(&scene, |s| s.reflectance), &[0.0, 0.999, 0.5]);
 }

@@ -23,12 +23,10 @@ fuzz_target!(|data: &[u8]| {
     let bump = [0.0, 1.0e-7, 1.0e-6, 1.0e-4, 1.0e-2][bytes.below(5)];
     let lean = bytes.point().as_dvec3();
     let shared = bytes.below(2) == 0;
-    let config = OccluderConfig {
-        flush: bytes.below(2) == 0,
-        cone_degrees: [45.0, 180.0][bytes.below(2)],
-        min_area: 1.0e-5,
-        ..OccluderConfig::default()
-    };
+    let mut config = OccluderConfig::default();
+    config.flush = bytes.below(2) == 0;
+    config.cone_degrees = [45.0, 180.0][bytes.below(2)];
+    config.min_area = 1.0e-5;
     // Two far triangles keep the wall off the border of the scene's box.
     let mut obj = "mtllib m\nusemtl l\nv -1 -1 -1\nv -1 -.9 -1\nv -.9 -1 -1\nv 1 1 1\nv 1 .9 1\nv .9 1 1\nf 1 2 3\nf 4 5 6\n".to_owned();
     let mut vertices = 6;

@@ -16,6 +16,7 @@ mod error;
 mod error_budget_command;
 mod error_command;
 mod flag_vocabulary;
+mod folder_lock;
 mod generate_command;
 mod interrupt;
 mod logs;

@@ -3,6 +3,7 @@
 use super::args::SolveCommand;
 use super::checkpointing::{Checkpointing, is_done};
 use super::error::CliError;
+use super::folder_lock::FolderLock;
 use super::logs;
 use super::memory_guard::{MemoryGuard, check_estimate};
 use super::progress::Progress;
@@ -76,6 +77,7 @@ fn solve_and_write(
     check_estimate(estimate, command.max_memory)?;
     // A folder that cannot be made is better known before the solve than after; an invalid scene makes none.
     make_folder(&command.out)?;
+    let _lock = FolderLock::take(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
     let prepared = session.stops_at_once(|| {
         PreparedScene::new(

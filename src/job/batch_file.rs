@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 /// The whole file.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct BatchFile {
     /// Version of this layout: [`BatchFile::FORMAT`].
     pub format: u32,
@@ -28,6 +29,7 @@ pub struct BatchFile {
 
 /// How many jobs have each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct BatchCounts {
     /// All.
     pub total: usize,
@@ -48,6 +50,7 @@ pub struct BatchCounts {
 /// What became of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum JobStatus {
     /// Not begun.
     Waiting,
@@ -65,6 +68,7 @@ pub enum JobStatus {
 
 /// One job.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct JobRecord {
     /// Its name.
     pub name: String,

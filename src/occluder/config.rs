@@ -2,6 +2,7 @@
 
 /// Configuration of the extraction. Sizes are relative, so that no answer depends on units.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct OccluderConfig {
     /// Rectangles kept of one flat cluster at most (`--occluders`).
     pub per_cluster: usize,

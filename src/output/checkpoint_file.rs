@@ -8,7 +8,7 @@ use super::{Fingerprint, OutputError, write_atomically};
 use crate::solve::Snapshot;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
@@ -108,7 +108,14 @@ pub fn read_checkpoint(
         Ok(found) if !found.is_file() => return Err(refuse(CheckpointProblem::NotACheckpoint)),
         Ok(_) => {}
     }
-    let bytes = std::fs::read(path).map_err(unreadable)?;
+    // The beginning alone tells what is no checkpoint, however large it is.
+    let mut file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    let head = MAGIC.len() as u64;
+    (Read::by_ref(&mut file).take(head).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes == MAGIC {
+        file.read_to_end(&mut bytes).map_err(unreadable)?;
+    }
     decode(bytes, key).map(Some).map_err(refuse)
 }
 

@@ -26,6 +26,7 @@ pub struct Fingerprint {
 
 /// The hashes in `stats.json`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct ContentBlock {
     /// Of the scene: [`scene_hash`].
     pub scene: HashText,

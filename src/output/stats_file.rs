@@ -15,6 +15,7 @@ use std::sync::atomic::AtomicBool;
 /// What `stats.json` holds. Everything but the seconds is the same, byte for byte, for the same
 /// input, seed and configuration.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct StatsFile {
     /// Version of this layout: [`StatsFile::FORMAT`].
     pub format: u32,
@@ -57,6 +58,7 @@ pub struct StatsFile {
 
 /// The input as it was taken in.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SceneBlock {
     /// The OBJ file, or `builtin:NAME`.
     pub path: String,
@@ -78,6 +80,7 @@ pub struct SceneBlock {
 
 /// Sizes of the structures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct HierarchyBlock {
     /// Nodes that join connected facets, facets themselves not counted.
     pub face_clusters: usize,
@@ -93,6 +96,7 @@ pub struct HierarchyBlock {
 
 /// Wall time of each stage in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SecondsBlock {
     /// Reading and validating.
     pub load: f64,

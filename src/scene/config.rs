@@ -6,6 +6,7 @@ pub const CLAMPED_REFLECTANCE: f64 = 0.999;
 
 /// Choices of the loader.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct LoadConfig {
     /// Lower a `Kd` of 1 or more to [`CLAMPED_REFLECTANCE`] with a warning instead of refusing it.
     pub clamp_reflectance: bool,

@@ -61,6 +61,7 @@ pub enum Stop {
 
 /// Settings of a solve. Everything is dimensionless, so it means the same in every scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolveConfig {
     /// How visibility is decided.
     pub technique: Technique,

@@ -2,9 +2,9 @@
 //! built again from the scene.
 //!
 //! That is the patches made so far, their irradiance and what they have yet to shoot, the statistics of the
-//! passes, the power dropped and the scales of row normalisation. What stands above
-//! the patches, and how a patch's light is spread over its children, is pulled anew, as at the end of every pass; the schedule of queries learns within one task of one pass and is not
-//! carried over.
+//! passes, the power dropped and the scales of row normalisation. What stands above the patches, and how a patch's
+//! light is spread over its children, is pulled anew, as at the end of every pass; the schedule of queries learns
+//! within one pass and is not carried over.
 //!
 //! Layout, little endian: channels (u32), passes (u32) with their statistics and scales, power dropped (f64),
 //! owners (u32), facets (u32); then each owner's count of facets and patches (u32 each) and its arrays.

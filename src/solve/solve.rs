@@ -28,6 +28,7 @@ use std::time::Instant;
 
 /// A finished solve.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Solved {
     /// The leaf patches with their light.
     pub solution: Solution,

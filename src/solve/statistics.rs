@@ -4,6 +4,7 @@ use serde::Serialize;
 
 /// One pass. Counts are exact and the same at any number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PassStatistics {
     /// 1 is direct light.
     pub pass: u32,
@@ -54,6 +55,7 @@ impl PassStatistics {
 
 /// Where the emitted power went, in W, mean of the channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PowerLedger {
     /// Emitted by the scene.
     pub emitted: f64,

@@ -276,6 +276,30 @@ fn a_checkpoint_that_cannot_be_written_is_no_failure() {
     assert_eq!(run.stderr, "");
 }
 
+#[test]
+fn two_solves_do_not_share_a_folder() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let mut first = start(
+        &folder,
+        "solve builtin:offices --out results --epsilon 1e-9 --min-area 0",
+    );
+    while !folder.path("results").exists() {
+        sleep(Duration::from_millis(1));
+    }
+    // Made, and then locked.
+    sleep(Duration::from_millis(200));
+    folder
+        .line("solve room.obj --out results --epsilon 1e-3")
+        .ends_with(2, "second")
+        .says(&["another solve is writing into results"]);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    folder
+        .line("solve room.obj --no-view --out results --epsilon 1e-3")
+        .ends_with(0, "third");
+}
+
 /// The estimate refuses before anything is made; what is found too much after a pass leaves a checkpoint.
 #[test]
 fn memory_is_bounded_before_and_during_a_solve() {

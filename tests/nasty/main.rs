@@ -16,29 +16,25 @@ fn audit_of(seed: u64) -> AuditReport {
     let files = [("m.mtl", MTL.as_bytes())];
     let scene = load_text("nasty", obj.as_bytes(), &files, &LoadConfig::default())
         .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-    let solve = SolveConfig {
-        technique: Technique::Occlusion,
-        epsilon: 1.0e-4,
-        stop: Stop::Passes(2),
-        stride: match seed % 3 {
-            0 => Stride::Auto,
-            1 => Stride::Every(SolveConfig::PAPER_STRIDE),
-            _ => Stride::Every(1),
-        },
-        seed,
-        ..SolveConfig::default()
+    let mut solve = SolveConfig::default();
+    solve.technique = Technique::Occlusion;
+    solve.epsilon = 1.0e-4;
+    solve.stop = Stop::Passes(2);
+    solve.stride = match seed % 3 {
+        0 => Stride::Auto,
+        1 => Stride::Every(SolveConfig::PAPER_STRIDE),
+        _ => Stride::Every(1),
     };
+    solve.seed = seed;
     // Every other scene with an extraction that takes what it can get.
-    let occluders = match seed % 2 {
-        0 => OccluderConfig::default(),
-        _ => OccluderConfig {
-            per_cluster: 12,
-            min_area: 1.0e-5,
-            flatness_degrees: 10.0,
-            cone_degrees: 180.0,
-            flush: true,
-        },
-    };
+    let mut occluders = OccluderConfig::default();
+    if seed % 2 == 1 {
+        occluders.per_cluster = 12;
+        occluders.min_area = 1.0e-5;
+        occluders.flatness_degrees = 10.0;
+        occluders.cone_degrees = 180.0;
+        occluders.flush = true;
+    }
     let prepared = PreparedScene::new(scene, SidesMode::Auto, seed, &DeviceConfig::default())
         .expect("Embree opens")
         .with_guarantees(solve.technique, &occluders);
