@@ -13,6 +13,8 @@ pub const PARENT_VARIABLE: &str = "CERTILUX_BATCH_PARENT";
 const LOG_NAME: &str = "log.txt";
 /// The file that a solve writes last.
 const LAST_WRITTEN: &str = "stats.json";
+/// Lines that are quoted of one that did not say why it ended.
+const LAST_LINES: usize = 4;
 /// Bytes of the log that may hold the reason of a failure.
 const TAIL_BYTES: u64 = 8192;
 
@@ -128,12 +130,7 @@ impl Drop for Child {
 impl Ending {
     /// Why it failed, in its own words where it had any.
     pub fn reason(&self) -> String {
-        let is_warning = |line: &&str| line.starts_with("certilux: warning: ");
-        let said: Vec<&str> = (self.said.lines())
-            .filter(|line| !is_warning(line) && !line.trim().is_empty())
-            .collect();
-        let said = said.join("\n");
-        let said = said.strip_prefix("certilux: ").unwrap_or(&said);
+        let said = last_words(&self.said);
         let how = match (self.code, self.signal) {
             (Some(code), _) => format!("exit code {code}"),
             (_, Some(signal)) => format!("ended by signal {signal}"),
@@ -144,6 +141,30 @@ impl Ending {
             false => format!("{said} ({how})"),
         }
     }
+}
+
+/// The error among what a run said: the sentence that names the program, or the last error of JSON lines; else, as where
+/// it panicked, the last lines.
+fn last_words(said: &str) -> String {
+    let json_error = said.lines().rev().find_map(|line| {
+        let event: serde_json::Value = serde_json::from_str(line).ok()?;
+        (event["level"] == "ERROR").then(|| event["message"].as_str().map(str::to_owned))?
+    });
+    if let Some(message) = json_error {
+        return message;
+    }
+    let lines: Vec<&str> = said
+        .lines()
+        .filter(|line| !line.trim().is_empty())
+        .collect();
+    let names_us =
+        |line: &&str| line.starts_with("certilux: ") && !line.starts_with("certilux: warning: ");
+    let from = match lines.iter().position(names_us) {
+        Some(at) => at,
+        None => lines.len().saturating_sub(LAST_LINES),
+    };
+    let text = lines[from..].join("\n");
+    text.strip_prefix("certilux: ").unwrap_or(&text).to_owned()
 }
 
 fn written(folder: &Path) -> Option<SystemTime> {
@@ -191,3 +212,33 @@ pub fn end_with_batch() {
 /// Elsewhere a job runs to its end.
 #[cfg(not(target_os = "linux"))]
 pub fn end_with_batch() {}
+
+#[cfg(test)]
+mod tests {
+    use super::last_words;
+
+    #[test]
+    fn the_reason_is_found_among_what_was_said() {
+        for (said, want) in [
+            ("", ""),
+            (
+                "certilux: warning: odd\ncertilux: bad.obj is wrong\n  line 3: no\n",
+                "bad.obj is wrong\n  line 3: no",
+            ),
+            (
+                "2026 INFO certilux: pass\ncertilux: no memory\n",
+                "no memory",
+            ),
+            (
+                "a\nb\nc\nthread panicked at x:\nindex out of bounds\n",
+                "b\nc\nthread panicked at x:\nindex out of bounds",
+            ),
+            (
+                "{\"level\":\"INFO\",\"message\":\"pass\"}\n{\"level\":\"ERROR\",\"message\":\"no such scene\"}\n",
+                "no such scene",
+            ),
+        ] {
+            assert_eq!(last_words(said), want, "{said}");
+        }
+    }
+}

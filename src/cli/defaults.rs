@@ -22,7 +22,7 @@ const FILE_VARIABLE: &str = "CERTILUX_CONFIG";
 /// What the variables of flags begin with.
 const PREFIX: &str = "CERTILUX_";
 /// Flags that no file or variable may give: the first would contradict itself, the others are decisions about one run.
-pub const NEVER_DEFAULT: [&str; 4] = ["no-config", "list", "resume", "dry-run"];
+pub const NEVER_DEFAULT: [&str; 5] = ["no-config", "list", "resume", "only", "list-names"];
 
 /// The command line with all levels of defaults in it.
 pub struct Filled {

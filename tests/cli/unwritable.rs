@@ -59,5 +59,14 @@ fn a_device_in_the_place_of_a_result() {
         .line(&format!("solve room.obj --out results {COARSE}"))
         .ends_with(3, "a device")
         .says(&["solution.ply"]);
-    assert_eq!(folder.names("results"), ["solution.ply"]);
+    // The light is not lost: the solve goes on from its end once the name is free.
+    assert_eq!(
+        folder.names("results"),
+        ["solution.ply", "solve.checkpoint"]
+    );
+    fs::remove_file(folder.path("results/solution.ply")).unwrap();
+    folder
+        .line(&format!("solve room.obj --out results --resume {COARSE}"))
+        .ends_with(0, "the name is free");
+    assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
 }
