@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Processor seconds against error: Mitsuba 3, Radiance and certilux on the same built-in scenes, in one run.
 
-    bench/peers/compare.py --certilux target/release/certilux --scratch /tmp/peers --out bench/runs/DATE-HOST/peers
+    bench/peers/compare.py --certilux target/release/certilux --scratch SCRATCH --out bench/runs/DATE-HOST/peers
 
 The error is the relative RMS error of `certilux error` (reflected radiosity a face, mean of the channels, weighted by area), with
 the reference's noise taken off as a root of the difference of squares. Seconds are processor seconds of a whole program,
