@@ -31,6 +31,9 @@ const FINALISTS: usize = 96;
 /// Rays across and down such a close look.
 const LOOK: [usize; 2] = [16, 10];
 
+/// Directions around an eye that tell indoors from outdoors.
+const AROUND: u32 = 64;
+
 /// What is nearer than this share of the seen space's size (the root of its area) stands in the way.
 const TOO_NEAR: f64 = 0.18;
 
@@ -42,6 +45,8 @@ struct Shot {
     seen: f64,
     /// Share of the points seen around the eye, framed or not.
     around: f64,
+    /// Share of all directions from the eye that end on a surface: 1 indoors.
+    enclosed: f64,
 }
 
 impl View<'_> {
@@ -59,7 +64,8 @@ impl View<'_> {
             .flatten_iter()
             .collect();
         let mut order: Vec<usize> = (0..shots.len()).collect();
-        order.sort_by(|&i, &j| shots[j].seen.total_cmp(&shots[i].seen).then(i.cmp(&j)));
+        let promise = |i: usize| shots[i].seen * shots[i].enclosed.powi(2);
+        order.sort_by(|&i, &j| promise(j).total_cmp(&promise(i)).then(i.cmp(&j)));
         order.truncate(FINALISTS);
         let scores: Vec<f64> = order
             .par_iter()
@@ -208,6 +214,7 @@ impl View<'_> {
             .filter_map(|(p, hit)| hit.is_none().then_some(p.position - eye))
             .collect();
         let around = visible.len() as f64 / points.len() as f64;
+        let enclosed = self.enclosed(eye);
         SLOPES
             .into_iter()
             .filter_map(|slope| {
@@ -223,6 +230,7 @@ impl View<'_> {
                         forward,
                         seen: seen as f64 / points.len() as f64,
                         around,
+                        enclosed,
                     })
             })
             .collect()
@@ -243,8 +251,25 @@ impl View<'_> {
             }
         };
         let share = hits.iter().flatten().map(good).sum::<f64>() / hits.len() as f64;
-        // Squared: a quarter of the frame spoiled costs nearly half of the points.
-        share * share
+        // Squared: a quarter of the frame spoiled costs nearly half of the points, as does a quarter of the sky.
+        (share * shot.enclosed).powi(2)
+    }
+
+    /// Share of all directions from an eye that end on a surface.
+    fn enclosed(&self, eye: DVec3) -> f64 {
+        let sequence = SampleSequence::new(1);
+        let rays: Vec<Ray> = (0..AROUND)
+            .map(|i| {
+                let [s, t, ..] = sequence.point(i).map(f64::from);
+                let (height, angle) = (2.0 * s - 1.0, std::f64::consts::TAU * t);
+                let level = (1.0 - height * height).sqrt();
+                let direction = DVec3::new(level * angle.cos(), level * angle.sin(), height);
+                Ray::half_line(eye.as_vec3(), direction.as_vec3(), 0.0)
+            })
+            .collect();
+        let mut hits = Vec::new();
+        self.embree.closest_hits(&rays, &mut hits);
+        hits.iter().flatten().count() as f64 / f64::from(AROUND)
     }
 }
 
@@ -389,6 +414,30 @@ mod tests {
             assert_eq!(face.side, Side::Front);
         }
         assert_eq!(camera(&mesh).up, DVec3::Y);
+    }
+
+    #[test]
+    fn the_camera_stands_indoors_though_more_is_lit_outdoors() {
+        // The lit room of the fixture, and around it a lit ground that is seen from above only.
+        let least = DVec3::new(0.0, 0.0, 0.0);
+        let mut positions: Vec<DVec3> =
+            fixture::box_corners(least, least + DVec3::new(4.0, 5.0, 2.5)).to_vec();
+        let mut triangles = fixture::box_triangles(0).to_vec();
+        let first = positions.len() as u32;
+        let (a, b) = (-6.0, 12.0);
+        positions.extend([(a, a), (b, a), (b, b), (a, b)].map(|(x, y)| DVec3::new(x, y, -0.5)));
+        triangles.push(([first, first + 1, first + 2], 6, 0));
+        triangles.push(([first, first + 2, first + 3], 6, 0));
+        let scene = fixture::scene(positions, &triangles, vec![fixture::grey(0.5, 0.0)]);
+        let solution = fixture::solve(&scene, fixture::fronts(&scene), 2, |facet, _| {
+            match scene.polygons[facet.polygon.index()].source_face {
+                5 => (5.0, 1.0),
+                _ => (1.0, 1.0),
+            }
+        });
+        let eye = camera(&SolvedMesh::new(&scene, &solution)).eye;
+        let inside = eye.cmpgt(DVec3::ZERO) & eye.cmplt(DVec3::new(4.0, 5.0, 2.5));
+        assert!(inside.all(), "{eye}");
     }
 
     #[test]
