@@ -61,9 +61,22 @@ fn main() {
         println!("cargo:rpath={}", embree.lib.display());
     }
 
+    name_compiler();
     link_for_doctests(&embree);
     compile_shim(&embree);
     bind_shim(&embree);
+}
+
+/// Tells the program what compiled it: instruction counts are comparable only then.
+fn name_compiler() {
+    let compiler = env::var_os("RUSTC").expect("set by cargo");
+    let said = std::process::Command::new(compiler)
+        .arg("--version")
+        .output()
+        .ok()
+        .and_then(|output| String::from_utf8(output.stdout).ok());
+    let name = said.unwrap_or_else(|| "rustc of unknown version".to_owned());
+    println!("cargo:rustc-env=CERTILUX_RUSTC={}", name.trim());
 }
 
 /// Cargo searches at run time what is searched at link time below its own target folder, and nothing else.

@@ -1,6 +1,7 @@
 //! `certilux bench`: records a baseline of a suite, or checks against one.
 
 use super::args::{BenchCommand, BenchFormat, SuiteArg};
+use super::callgrind::count_instructions;
 use super::error::CliError;
 use super::logs;
 use super::scene_source::read_scene;
@@ -8,7 +9,8 @@ use super::session::{Session, print_line};
 use super::solve_command::with_threads;
 use crate::embree::DeviceConfig;
 use crate::experiment::{
-    Baseline, BaselineKey, BaselineRow, ComparisonConfig, SuiteCase, compare, regressions, suite,
+    Baseline, BaselineKey, BaselineRow, ComparisonConfig, SuiteCase, compare, dearer, regressions,
+    suite,
 };
 use crate::occluder::OccluderConfig;
 use crate::output::write_json;
@@ -24,7 +26,10 @@ const ISA: &str = "avx2";
 pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
     // A baseline that cannot be read is better known before the suite has run.
     let baseline = command.check.as_deref().map(read_baseline).transpose()?;
-    let now = with_threads(command.threads, || run_suite(session, command.suite))?;
+    let mut now = with_threads(command.threads, || run_suite(session, command.suite))?;
+    if !command.no_instructions {
+        now.instructions = count_instructions()?;
+    }
     report(command.format, &now);
     if let Some(path) = &command.record {
         write_json(path, &now, &session.interrupted)?;
@@ -41,6 +46,7 @@ pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
             baseline.key, now.key
         ),
     };
+    let key = format!("{key}; {}", instructions_compared(&baseline, &now));
     if found.is_empty() {
         session.say(format_args!("no regression; checked under {key}"));
         return Ok(());
@@ -50,6 +56,18 @@ pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
         found.len(),
         found.join("\n  ")
     )))
+}
+
+/// Whether instructions were compared, or why not.
+fn instructions_compared(baseline: &Baseline, now: &Baseline) -> &'static str {
+    match (&baseline.instructions, &now.instructions) {
+        (None, _) => "no instructions in the baseline",
+        (_, None) => "instructions not counted (valgrind is not installed, or they were left out)",
+        (Some(old), Some(new)) => match dearer((&baseline.key, old), (&now.key, new)) {
+            Some(_) => "instructions within 3 %",
+            None => "instructions not compared (another compiler or key)",
+        },
+    }
 }
 
 fn read_baseline(path: &Path) -> Result<Baseline, CliError> {
@@ -69,13 +87,10 @@ fn run_suite(session: &Session, which: SuiteArg) -> Result<Baseline, CliError> {
     let mut now = Baseline {
         format: 1,
         suite: name.to_owned(),
-        key: BaselineKey {
-            embree: String::new(),
-            isa: ISA.to_owned(),
-            arch: std::env::consts::ARCH.to_owned(),
-        },
+        key: BaselineKey::here(String::new(), ISA),
         occluders: Vec::new(),
         rows: Vec::new(),
+        instructions: None,
     };
     for case in cases {
         if !session.quiet {
@@ -143,10 +158,15 @@ fn report(format: BenchFormat, now: &Baseline) {
                     row.ratio * row.spread
                 ));
             }
+            for (technique, instructions) in now.instructions.iter().flat_map(|i| &i.by_technique) {
+                print_line(format_args!(
+                    "{technique:11} {instructions:13} instructions"
+                ));
+            }
         }
         BenchFormat::Json => print_line(format_args!("{}", json!(now))),
         BenchFormat::Bmf => {
-            let metrics: serde_json::Map<String, serde_json::Value> = (now.rows.iter())
+            let mut metrics: serde_json::Map<String, serde_json::Value> = (now.rows.iter())
                 .map(|row| {
                     let name = format!("{}/pass{}/{}", row.scene, row.pass, row.technique);
                     let value = json!({
@@ -158,6 +178,10 @@ fn report(format: BenchFormat, now: &Baseline) {
                     (name, value)
                 })
                 .collect();
+            for (technique, &value) in now.instructions.iter().flat_map(|i| &i.by_technique) {
+                let name = format!("instructions/{technique}");
+                metrics.insert(name, json!({ "instructions": { "value": value } }));
+            }
             print_line(format_args!("{}", json!(metrics)));
         }
     }

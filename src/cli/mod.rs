@@ -8,6 +8,7 @@ mod batch_command;
 mod batch_progress;
 mod bench_command;
 mod byte_size;
+mod callgrind;
 mod checkpointing;
 mod clusters_command;
 mod compare_command;

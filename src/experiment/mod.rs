@@ -4,6 +4,7 @@
 mod audit;
 #[cfg(test)]
 mod audit_tests;
+mod baseline_key;
 mod comparison;
 mod continuous_surface;
 mod detection;
@@ -11,6 +12,7 @@ mod dice;
 mod element_points;
 mod error_budget;
 mod flat_polygon;
+mod instruction_counts;
 mod pareto;
 mod polygon_boxes;
 mod processor_time;
@@ -23,16 +25,16 @@ mod sweep_settings;
 mod table_one;
 
 pub use audit::{AuditConfig, AuditError, AuditReport, Flaw, audit};
+pub use baseline_key::{BaselineKey, COMPILER};
 pub use comparison::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, Times, compare, summarise,
 };
 pub use detection::{Detection, DetectionConfig, detection};
 pub use error_budget::{Approximation, BudgetLine, BudgetedError, ErrorBudget, error_budget};
+pub use instruction_counts::{InstructionCounts, dearer};
 pub use pareto::pareto_front;
 pub use processor_time::processor_seconds;
-pub use regression::{
-    Baseline, BaselineCounts, BaselineKey, BaselineRow, SuiteCase, regressions, suite,
-};
+pub use regression::{Baseline, BaselineCounts, BaselineRow, SuiteCase, regressions, suite};
 pub use sweep::{
     Sweep, SweepError, SweepOutcome, SweepRow, SweepTiming, error_at_cost, sweep_fronts,
 };

@@ -4,7 +4,9 @@
 //! Times are compared as ratios to `normal` in the same run, since machines differ and are noisy; the
 //! tolerance of a ratio is what its repeats spread.
 
+use super::baseline_key::BaselineKey;
 use super::comparison::{ComparisonRow, Times};
+use super::instruction_counts::{InstructionCounts, dearer};
 use crate::solve::{PassStatistics, Technique};
 use serde::{Deserialize, Serialize};
 
@@ -58,17 +60,6 @@ pub fn suite(name: &str) -> Option<&'static [SuiteCase]> {
         "paper" => Some(&PAPER),
         _ => None,
     }
-}
-
-/// On what counts depend besides the code.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct BaselineKey {
-    /// Version of Embree.
-    pub embree: String,
-    /// Instruction set that Embree was told to use.
-    pub isa: String,
-    /// Family of processors.
-    pub arch: String,
 }
 
 /// The counts of one technique in one pass.
@@ -158,6 +149,9 @@ pub struct Baseline {
     pub occluders: Vec<usize>,
     /// The rows.
     pub rows: Vec<BaselineRow>,
+    /// Instructions, where they were counted.
+    #[serde(default)]
+    pub instructions: Option<InstructionCounts>,
 }
 
 impl BaselineRow {
@@ -248,6 +242,9 @@ pub fn regressions(baseline: &Baseline, now: &Baseline) -> Vec<String> {
             ));
         }
     }
+    if let (Some(old), Some(new)) = (&baseline.instructions, &now.instructions) {
+        found.extend(dearer((&baseline.key, old), (&now.key, new)).unwrap_or_default());
+    }
     for new in &now.rows {
         if !baseline.rows.iter().any(|old| old.is_same_as(new)) {
             found.push(format!("{}: run, but not in the baseline", new.label()));
@@ -277,13 +274,10 @@ mod tests {
         Baseline {
             format: 1,
             suite: "ci".to_owned(),
-            key: BaselineKey {
-                embree: "4.3.3".to_owned(),
-                isa: "avx2".to_owned(),
-                arch: "x86_64".to_owned(),
-            },
+            key: BaselineKey::here("4.3.3".to_owned(), "avx2"),
             occluders: vec![3],
             rows: vec![row("normal", 1.0), row("occlusion", 0.5)],
+            instructions: None,
         }
     }
 

@@ -1,0 +1,61 @@
+//! What the counts of a baseline depend on besides the code.
+
+use crate::math::hash_u64;
+use serde::{Deserialize, Serialize};
+
+/// What counts and instructions depend on besides the code.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BaselineKey {
+    /// Version of Embree.
+    pub embree: String,
+    /// Instruction set that Embree was told to use.
+    pub isa: String,
+    /// Family of processors.
+    pub arch: String,
+    /// Fingerprint of the mathematical functions of the system's library.
+    pub libm: String,
+}
+
+impl BaselineKey {
+    /// Of this machine, with this version of Embree told to use `isa`.
+    pub fn here(embree: String, isa: &str) -> Self {
+        Self {
+            embree,
+            isa: isa.to_owned(),
+            arch: std::env::consts::ARCH.to_owned(),
+            libm: libm_fingerprint(),
+        }
+    }
+}
+
+/// A hash of what the library's inexact functions return over their ranges: versions of it, and the variants that it
+/// chooses by processor, round some of these differently.
+fn libm_fingerprint() -> String {
+    let mut hash = 0_u64;
+    let mut add = |x: f32| hash = hash_u64(hash ^ u64::from(x.to_bits()));
+    for i in 0..4096_u16 {
+        let x = f32::from(i) / 4096.0;
+        add(x.acos());
+        add((2.0 * x - 1.0).atan2(x));
+        add((7.0 * x).sin());
+        add((7.0 * x).cos());
+        add(x.powf(2.4));
+    }
+    format!("{hash:016x}")
+}
+
+/// The compiler that built this program, as it names itself; instructions depend on it.
+pub const COMPILER: &str = env!("CERTILUX_RUSTC");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_key_of_a_machine_is_always_the_same() {
+        let here = BaselineKey::here("4.3.3".to_owned(), "avx2");
+        assert_eq!(here, BaselineKey::here("4.3.3".to_owned(), "avx2"));
+        assert_ne!(here, BaselineKey::here("4.4.0".to_owned(), "avx2"));
+        assert!(COMPILER.starts_with("rustc "), "{COMPILER}");
+    }
+}
