@@ -62,6 +62,8 @@ pub enum Command {
     Sweep(SweepCommand),
     /// Where the error of a solve comes from: each approximation in turn made nearly exact.
     ErrorBudget(ErrorBudgetCommand),
+    /// One self-contained page over solves, comparisons and sweeps.
+    Report(ReportCommand),
     /// Write the occluders of a scene as a mesh to lay over it (paper, Figs. 3 and 4).
     Occluders(OccludersCommand),
     /// Check the guarantees of a solve: replay its proofs in exact arithmetic, attack them with rays.
@@ -91,6 +93,22 @@ pub struct CompletionsCommand {
 pub struct ManCommand {
     /// Folder for certilux.1 and a page a command; made if it is not there.
     #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// `certilux report`
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "A folder may hold what solve, compare (--json) and sweep write: pictures, where energy and time went, rays saved by \
+                  each guarantee, Table 1 beside the paper's, plots, warnings, and how to reproduce it all. The page needs no network.\n\n\
+                  Example:  certilux solve room.obj --out solved  &&  certilux report solved --out report.html"
+)]
+pub struct ReportCommand {
+    /// Folders with results, a section each.
+    #[arg(value_name = "DIR", required = true)]
+    pub folders: Vec<PathBuf>,
+    /// The page.
+    #[arg(long, value_name = "FILE.html")]
     pub out: PathBuf,
 }
 

@@ -4,7 +4,7 @@ use super::logs::{self, BadFilter};
 use crate::embree::EmbreeError;
 use crate::experiment::{AuditError, SweepError, TooManyPoints};
 use crate::job::TomlError;
-use crate::output::{CameraError, CheckpointError, ComparisonError, OutputError};
+use crate::output::{CameraError, CheckpointError, ComparisonError, OutputError, ReportError};
 use crate::reference::{NothingToCompare, ReferenceError};
 use crate::scene::LoadError;
 use crate::scene::generate::UnknownScene;
@@ -88,6 +88,9 @@ pub enum CliError {
     /// Ctrl-C.
     #[error("interrupted; nothing was left half-written")]
     Interrupted,
+    /// There is nothing to report, or the page cannot be written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
     /// The system refused something.
     #[error("{0}")]
     System(String),
@@ -146,6 +149,8 @@ impl CliError {
             | Self::Reference(ReferenceError::Interrupted)
             | Self::Solve(SolveError::Interrupted { .. })
             | Self::Output(OutputError::Interrupted { .. }) => 130,
+            Self::Report(ReportError::Output(_)) => 3,
+            Self::Report(_) => 2,
             Self::Embree(_) | Self::Output(_) | Self::System(_) => 3,
         }
     }

@@ -30,6 +30,7 @@ mod reference_args;
 mod reference_command;
 mod reference_progress;
 mod render;
+mod report_command;
 mod run;
 mod scene_source;
 mod session;

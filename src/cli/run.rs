@@ -7,7 +7,8 @@ use super::session::Session;
 use super::{
     audit_command, batch_child, batch_command, bench_command, clusters_command, compare_command,
     error_budget_command, error_command, generate_command, interrupt, logs, manual_commands,
-    occluders_command, reference_command, solve_command, sweep_command, view_command,
+    occluders_command, reference_command, report_command, solve_command, sweep_command,
+    view_command,
 };
 use std::ffi::OsString;
 
@@ -60,6 +61,7 @@ fn dispatch(session: &Session, cli: &Cli) -> Result<(), CliError> {
         Command::Error(command) => error_command::run(session, command),
         Command::Audit(command) => audit_command::run(session, command),
         Command::ErrorBudget(command) => error_budget_command::run(session, command),
+        Command::Report(command) => report_command::run(session, command),
         Command::Sweep(command) => sweep_command::run(session, command),
         Command::Generate(command) => generate_command::run(session, command),
         Command::Completions(command) => manual_commands::completions(command),

@@ -201,6 +201,9 @@ const SPREADS: f64 = 4.0;
 /// Least tolerance of a ratio: below it two runs of the same program on a shared machine differ.
 const LEAST_TOLERANCE: f64 = 0.25;
 
+/// Seconds below which a pass that takes longer is the clock's noise.
+const LEAST_SECONDS: f64 = 0.03;
+
 /// What differs from the baseline; nothing if all is well.
 pub fn regressions(baseline: &Baseline, now: &Baseline) -> Vec<String> {
     let mut found = Vec::new();
@@ -227,12 +230,15 @@ pub fn regressions(baseline: &Baseline, now: &Baseline) -> Vec<String> {
             continue;
         };
         for ((name, was), (_, is)) in old.counts.named().into_iter().zip(new.counts.named()) {
-            if was.abs_diff(is) as f64 > share * was as f64 {
+            // One ray more or less may decide a query: small counts move by what large ones may.
+            let least = was.max(old.counts.exchanges) as f64;
+            if was.abs_diff(is) as f64 > share * least {
                 found.push(format!("{}: {name} was {was}, is {is}", old.label()));
             }
         }
         let tolerance = LEAST_TOLERANCE.max(SPREADS * old.spread.max(new.spread));
-        if new.ratio > old.ratio * (1.0 + tolerance) {
+        let longer = (1.0 - old.ratio / new.ratio) * new.seconds;
+        if new.ratio > old.ratio * (1.0 + tolerance) && longer > LEAST_SECONDS {
             found.push(format!(
                 "{}: takes {:.3} of the time of normal, was {:.3}; tolerance {:.0} %",
                 old.label(),
@@ -297,6 +303,13 @@ mod tests {
         assert!(regressions(&baseline(), &now).is_empty());
         now.rows[1].counts.rays += 81;
         assert_eq!(regressions(&baseline(), &now).len(), 1);
+        // A thousandth of the exchanges, of which every one may be settled the other way.
+        now = baseline();
+        now.key.libm = "another".to_owned();
+        now.rows[1].counts.shafts += 10;
+        assert!(regressions(&baseline(), &now).is_empty());
+        now.rows[1].counts.shafts += 1;
+        assert_eq!(regressions(&baseline(), &now).len(), 1);
     }
 
     #[test]
@@ -306,6 +319,11 @@ mod tests {
         assert!(regressions(&baseline(), &now)[0].contains("was 0.500"));
         now.rows[1].ratio = 0.5 * 1.2;
         assert!(regressions(&baseline(), &now).is_empty());
+        // Hundredths of a second say nothing.
+        now.rows[1].ratio = 0.5 * 1.3;
+        now.rows[1].seconds = 0.05;
+        assert!(regressions(&baseline(), &now).is_empty());
+        now = baseline();
         now.rows.pop();
         assert!(regressions(&baseline(), &now)[0].contains("not run"));
         assert!(regressions(&now, &baseline())[0].contains("not in the baseline"));

@@ -24,6 +24,7 @@ mod ply_writer;
 mod png_file;
 mod reference_comparison;
 mod reference_file;
+mod report;
 mod smoothing;
 mod solved_mesh;
 mod staging;
@@ -54,6 +55,7 @@ pub use reference_comparison::{ComparisonError, solved_lights, true_faces};
 pub use reference_file::{
     ReferenceFace, ReferenceMeta, mean_radiosity, read_reference, write_reference,
 };
+pub use report::{ReportError, write_report};
 pub use solved_mesh::{SolvedFace, SolvedMesh};
 pub use staging::Staging;
 pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json, write_text};

@@ -14,6 +14,7 @@ mod manual;
 mod messages;
 mod other_commands;
 mod references;
+mod reports;
 mod results;
 mod resumption;
 mod sweeps;

@@ -1,0 +1,46 @@
+//! A sweep in the report: its plots and its table.
+
+use super::html::{Cell, escaped, table};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use std::fmt::Write;
+
+/// A plot of a sweep.
+pub struct Plot {
+    /// File name.
+    pub name: String,
+    /// SVG.
+    pub svg: Vec<u8>,
+}
+
+/// The section of one sweep: `csv` is its `sweep.csv`.
+pub fn sweep_section(name: &str, csv: &str, plots: &[Plot]) -> String {
+    let mut out = format!(
+        "<section><h2>{}</h2>\n<p>Speed against accuracy; the front is marked in the plots.</p>\n",
+        escaped(name)
+    );
+    for plot in plots {
+        // As an image, so that nothing inside it can run or clash with another's names.
+        let _ = writeln!(
+            out,
+            "<img class=\"plot\" alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">",
+            escaped(&plot.name),
+            STANDARD.encode(&plot.svg)
+        );
+    }
+    let mut lines = csv.lines();
+    let heads: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let rows: Vec<Vec<Cell>> = lines
+        .map(|line| line.split(',').map(cell).collect())
+        .collect();
+    out.push_str(&table("Points of the sweep", &heads, &rows));
+    out.push_str("</section>\n");
+    out
+}
+
+fn cell(text: &str) -> Cell {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Cell::quantity(value),
+        _ => Cell::text(text),
+    }
+}
