@@ -269,6 +269,7 @@ impl<'a> Batch<'a> {
 
     /// Writes `batch.json`, if it is time or `now`.
     fn record(&mut self, now: bool) -> Result<(), CliError> {
+        self.file.count();
         if !self.command.only.is_empty() {
             return Ok(());
         }
@@ -281,7 +282,6 @@ impl<'a> Batch<'a> {
         }
         self.recorded = Some(Instant::now());
         self.file.seconds = self.began.elapsed().as_secs_f64();
-        self.file.count();
         // An interruption is no reason to leave it unwritten: it says what was interrupted.
         let path = self.command.out.join("batch.json");
         Ok(write_json(&path, &self.file, &AtomicBool::new(false))?)
