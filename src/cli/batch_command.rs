@@ -290,9 +290,10 @@ impl<'a> Batch<'a> {
     fn stopped(&self) -> CliError {
         let counts = &self.file.counts;
         CliError::Stopped(format!(
-            "interrupted: {} of {} jobs were done, {} were stopped, {} had not begun; the same command with --resume goes on",
-            counts.done + counts.skipped,
+            "interrupted: of {} jobs {} were done, {} had failed, {} were stopped, {} had not begun; the same command with --resume goes on",
             counts.total,
+            counts.done + counts.skipped,
+            counts.failed,
             counts.interrupted,
             counts.waiting
         ))
