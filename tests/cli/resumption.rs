@@ -312,9 +312,9 @@ fn memory_is_bounded_before_and_during_a_solve() {
     assert!(!folder.path("results").exists());
     // The guess does not know what becomes of a coarse gradient under a fine epsilon.
     let unlikely =
-        "solve room.obj --no-view --epsilon 1e-5 --gradient 1e6 --converge 1e-30 --out results";
+        "solve room.obj --no-view --epsilon 1e-5 --gradient 1e6 --converge 1e-30 --threads 32 --out results";
     folder
-        .line(&format!("{unlikely} --max-memory 15M"))
+        .line(&format!("{unlikely} --max-memory 17M"))
         .ends_with(3, "guard")
         .says(&["after a pass", "--max-memory", "--resume"]);
     assert_eq!(folder.names("results"), ["solve.checkpoint"]);
