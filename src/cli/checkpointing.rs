@@ -82,14 +82,12 @@ impl<'a> Checkpointing<'a> {
         }
     }
 
-    /// Removes the checkpoint: the results are there.
+    /// Removes the checkpoint, also one that was only read: the results are there.
     pub fn remove(&self) {
-        if self.keep {
-            let unfinished = self.path.with_file_name(format!("{FILE_NAME}.partial"));
-            for path in [&self.path, &unfinished] {
-                // What cannot be removed is recognised by its content whenever it is met again.
-                let _ = std::fs::remove_file(path);
-            }
+        let unfinished = self.path.with_file_name(format!("{FILE_NAME}.partial"));
+        for path in [&self.path, &unfinished] {
+            // What cannot be removed is recognised by its content whenever it is met again.
+            let _ = std::fs::remove_file(path);
         }
     }
 }

@@ -311,8 +311,7 @@ fn memory_is_bounded_before_and_during_a_solve() {
         .says(&["likely to need", "--max-memory 20 MiB"]);
     assert!(!folder.path("results").exists());
     // The guess does not know what becomes of a coarse gradient under a fine epsilon.
-    let unlikely =
-        "solve room.obj --no-view --epsilon 1e-5 --gradient 1e6 --converge 1e-30 --threads 32 --out results";
+    let unlikely = "solve room.obj --no-view --epsilon 1e-5 --gradient 1e6 --converge 1e-30 --threads 32 --out results";
     folder
         .line(&format!("{unlikely} --max-memory 17M"))
         .ends_with(3, "guard")
