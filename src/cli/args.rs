@@ -2,7 +2,7 @@
 
 use super::batch_args::BatchCommand;
 use super::byte_size::{ByteSize, parse_byte_size};
-use super::error_budget_command::ErrorBudgetCommand;
+use super::error_budget_args::ErrorBudgetCommand;
 use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{
     OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,

@@ -1,10 +1,10 @@
 //! `certilux error-budget`: where the error of a solve comes from.
 
 use super::error::CliError;
+use super::error_budget_args::ErrorBudgetCommand;
 use super::progress::Progress;
 use super::scene_source::load_scene;
 use super::session::{Session, print_line};
-use super::solve_args::{SceneArgs, SolveArgs};
 use super::solve_command::with_threads;
 use super::sweep_command::check_faces;
 use crate::embree::DeviceConfig;
@@ -12,32 +12,7 @@ use crate::experiment::{BudgetedError, ErrorBudget, error_budget};
 use crate::output::{read_reference, true_faces, write_json};
 use crate::solve::{PreparedScene, SolveConfig};
 use serde::Serialize;
-use std::path::PathBuf;
 use std::sync::Arc;
-
-/// `certilux error-budget`
-#[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Each approximation in turn is made nearly exact, the others left as they are. What goes of the squared error is what the \
-                  approximation was worth; shares need not add up to one. The reference's noise is taken off."
-)]
-pub struct ErrorBudgetCommand {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
-    /// What to compare with (certilux reference).
-    #[arg(long, value_name = "REF.json")]
-    pub reference: PathBuf,
-    /// Solves with different seeds, to tell chance from the rest.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(2..=1000))]
-    pub seeds: u32,
-    /// The figures for programs.
-    #[arg(long, value_name = "FILE.json")]
-    pub json: Option<PathBuf>,
-    /// How to solve.
-    #[command(flatten)]
-    pub solve: SolveArgs,
-}
 
 /// Prints the table.
 pub fn run(session: &Session, command: &ErrorBudgetCommand) -> Result<(), CliError> {

@@ -14,6 +14,7 @@ mod clusters_command;
 mod compare_command;
 mod defaults;
 mod error;
+mod error_budget_args;
 mod error_budget_command;
 mod error_command;
 mod flag_vocabulary;
