@@ -36,7 +36,6 @@ REFERENCE_SEEDS = 16
 # Ladders, from cheap to dear; each is climbed until the error is below the target.
 SAMPLES = [1 << k for k in range(14, 30)]
 EPSILONS = ["1e-2", "1e-3", "3e-4", "1e-4", "3e-5", "1e-5", "3e-6", "1e-6"]
-RAYS = [8, 16]
 # Points and ambient settings of rtrace.
 RADIANCE = [
     (1000, "-ab 4 -ad 128 -as 0 -aa 0.3 -ar 16"),
@@ -204,7 +203,7 @@ class Bench:
         # Once without the clock: kernels are compiled and kept.
         self.mitsuba(SAMPLES[0], 1)
         rows = self.ladder("mitsuba", SAMPLES, self.mitsuba, seeds)
-        for rays in RAYS:
+        for rays in self.options.rays:
             run = lambda epsilon, seed: self.certilux(epsilon, rays, seed)
             rows += self.ladder(f"certilux --rays {rays}", EPSILONS, run, seeds)
         if not self.options.without_radiance:
@@ -268,6 +267,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True, help="folder for peers.csv, table.md and agreement.json")
     parser.add_argument("--scenes", nargs="+", default=["cornell", "two-rooms", "corridor"], choices=SCENES)
     parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--rays", type=int, nargs="+", default=[8], help="certilux is tried with each")
     parser.add_argument("--max-seconds", type=float, default=120.0, help="a ladder ends after a run of so many seconds")
     parser.add_argument("--without-radiance", action="store_true")
     parser.add_argument("--without-agreement", action="store_true")
