@@ -28,7 +28,7 @@ HERE = Path(__file__).resolve().parent
 SCENES = {
     "cornell": (0.02, 60, 1 << 21),
     "two-rooms": (0.02, 150, 1 << 21),
-    "corridor": (0.02, 0, 1 << 23),
+    "corridor": (0.02, 0, 1 << 21),
     "offices": (0.05, 0, 1 << 25),
 }
 # Runs of Mitsuba that make a reference, where it is not ours, or are held against ours.

@@ -66,10 +66,14 @@ def main(path: str, wanted: str, samples: str, seed: str, out: str) -> None:
 
     sums = [dr.zeros(mi.Float, len(pieces)) for _ in range(3)]
     owner = np.repeat(np.arange(len(pieces), dtype=np.uint32), counts)
-    for start in range(0, len(owner), WAVEFRONT):
-        index = mi.UInt32(owner[start : start + WAVEFRONT])
+    parts = np.array_split(owner, -(-len(owner) // WAVEFRONT))
+    for number, part in enumerate(parts):
+        # Whole vectors are read, past the end of an array that fills its last page: a padded copy has no such end.
+        padded = np.zeros(len(part) + 64, dtype=np.uint32)
+        padded[: len(part)] = part
+        index = mi.UInt32(padded[: len(part)])
         sampler = mi.load_dict({"type": "independent"})
-        sampler.seed(int(seed) * 100_003 + start // WAVEFRONT, len(index))
+        sampler.seed(int(seed) * 100_003 + number, len(part))
         u = sampler.next_2d()
         root = dr.sqrt(u.x)
         a, b, c = (dr.gather(mi.Point3f, p, index) for p in place)
