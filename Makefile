@@ -1,6 +1,6 @@
 # Every recipe stands alone on a fresh machine: set-up comes first and does nothing the second time.
 
-.PHONY: help setup demo test check check-long bench fuzz deb
+.PHONY: help setup demo test check check-long bench bench-check fuzz deb
 .DEFAULT_GOAL := help
 
 help:
@@ -9,6 +9,7 @@ help:
 	@echo 'make check       the whole gate: format, lints, tests, documentation, licences, a short fuzz'
 	@echo 'make fuzz        FUZZ_SECONDS=15 of fuzzing a target'
 	@echo 'make check-long  what takes too long for every change'
+	@echo 'make bench-check  counts, instructions and time ratios against bench/baseline.json'
 	@echo 'make bench       Embree packet benchmarks (bench/)'
 	@echo 'make deb         a Debian package, on Debian 13 with its Embree (needs cargo-deb)'
 	@echo 'make setup       only bring what the build needs'
@@ -61,3 +62,9 @@ deb: setup
 	target/release/certilux completions zsh > target/manual/_certilux
 	target/release/certilux completions fish > target/manual/certilux.fish
 	cargo deb --no-build --locked
+
+# The baseline is recorded anew, on a quiet machine and with valgrind installed, by whoever changes counts on purpose:
+# target/release/certilux bench --suite ci --record bench/baseline.json
+bench-check: setup
+	cargo build --release
+	target/release/certilux bench --suite ci --check bench/baseline.json
