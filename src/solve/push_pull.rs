@@ -61,8 +61,8 @@ fn push_nodes<const C: usize>(
             let normal = facets.normals[facet.index()].as_dvec3();
             let gathered = &mut gatherer.gathered[(facet.0 - gatherer.first_facet) as usize];
             for c in 0..C {
-                // A cluster receives only what is in front of all its facets: the dot product is
-                // negative by rounding alone.
+                // A cluster receives only what is in front of all its facets: the dot product is negative by
+                // rounding, or where second sets of samples took back more than the others brought.
                 let irradiance = normal.dot(sum[c]).max(0.0);
                 for corner in gathered.iter_mut() {
                     corner[c] += irradiance;
@@ -98,7 +98,8 @@ fn reflect<const C: usize>(
     let first = gatherer.children[at] as usize;
     if first == 0 {
         for c in 0..C {
-            // The fit may dip below zero at a corner where the truth does not.
+            // The fit may dip below zero at a corner where the truth does not; second sets of samples may too. What
+            // is cut off here brightens a little.
             let irradiance = scale * ((sum[0][c] + sum[1][c] + sum[2][c]) / 3.0).max(0.0);
             gatherer.total[at][c] += irradiance;
             shooter.unshot[at][c] = (reflectance[c] * irradiance) as f32;
