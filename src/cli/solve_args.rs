@@ -178,7 +178,7 @@ pub struct SolveArgs {
     #[arg(long, value_name = "X", default_value_t = SolveConfig::default().gradient, allow_negative_numbers = true)]
     pub gradient: f64,
     /// Visibility samples of an exchange; multiples of 8 are cheapest [default: 8]. Where the first samples decide that a
-    /// pair is not refined, as many more measure it.
+    /// pair is not refined, one in four such pairs casts as many more to measure it.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub rays: Option<u32>,
     /// Stop after N passes: 1 is direct light, 2 adds the first reflection.
