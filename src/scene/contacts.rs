@@ -115,6 +115,11 @@ impl Contacts {
         !range.is_empty() && self.nodes[range.start].bounds.distance(*bounds) <= 0.0
     }
 
+    /// True when some part of a side of `facet` is hidden.
+    pub fn touches_any(&self, facet: Facet) -> bool {
+        !self.range(facet).is_empty()
+    }
+
     /// True when `point`, on `facet`, is hidden by a solid that stands on it.
     pub fn is_hidden(&self, facet: Facet, point: Vec3) -> bool {
         let range = self.range(facet);

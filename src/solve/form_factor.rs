@@ -16,8 +16,11 @@ use glam::Vec3;
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// A cluster is taken as one flux vector beyond this many radii (its radius bounds its box, about
-/// twice its radius of gyration, so the error is below (1/24)^2 = 2e-3), else as its two children.
-const CLUSTER_RADII: f32 = 12.0;
+/// twice its radius of gyration, so the error is below (1/16)^2 = 4e-3), else as its two children. Measured: 12 leaves
+/// the same error and makes pass 2 of c 10 % slower.
+const CLUSTER_RADII: f32 = 8.0;
+/// Levels below a receiving cluster whose centroids are its points, and the gap in its radii from which they serve.
+const POINTS_OF_A_CLUSTER: [(f32, u32); 3] = [(10.0, 0), (4.0, 1), (0.0, 3)];
 
 /// The vector K of a unit-radiosity triangle at `point`, clipped to the horizon of `normal` where
 /// that is given. Zero where the point lies behind the triangle or within `tau` of its plane.
@@ -290,8 +293,10 @@ pub fn arrival(
             (Arrival::Field(vector), 0.0)
         }
         Shape::Cluster => {
-            // Levels below the cluster whose centroids are the points: one, or up to eight.
-            let levels = if gap > 10.0 * receiver.radius { 0 } else { 3 };
+            let levels = POINTS_OF_A_CLUSTER
+                .iter()
+                .find(|(radii, _)| gap > radii * receiver.radius)
+                .map_or(3, |&(_, levels)| levels);
             let sum = cluster_mean(space, source, receiver.node, levels, flatness.source);
             (Arrival::Vector(sum / receiver.area), 0.0)
         }

@@ -8,6 +8,7 @@ mod element;
 mod element_name;
 mod error;
 mod exchange;
+mod facet_frame;
 #[cfg(test)]
 mod fixture;
 mod form_factor;

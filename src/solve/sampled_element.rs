@@ -4,12 +4,12 @@
 //! furniture), so a visibility averaged over a source's area would be too low for its light.
 
 use super::element::{Element, Shape};
+use super::facet_frame::FacetFrame;
 use super::patch_split::{BELOW_ONE, PatchSplit};
 use super::radiosity::Shooter;
 use crate::cluster::Hierarchy;
 use crate::scene::{Facet, Scene};
 use crate::visibility::{PointOctet, Surface};
-use glam::Vec3;
 
 /// A receiver.
 pub struct ReceiverSurface<'a> {
@@ -19,15 +19,15 @@ pub struct ReceiverSurface<'a> {
     pub scene: &'a Scene,
     /// Its hierarchy.
     pub hierarchy: &'a Hierarchy,
-    /// Unit normals of the facets.
-    pub normals: &'a [Vec3],
+    /// Where points on its facets lie.
+    pub frames: &'a [FacetFrame],
     /// Sums of the areas before each facet.
     pub area_before: &'a [f64],
 }
 
 impl Surface for ReceiverSurface<'_> {
     #[inline(always)]
-    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+    fn points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet {
         let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
             let mut points = PointOctet::of_triangle(corners, normal, u, v);
@@ -40,25 +40,28 @@ impl Surface for ReceiverSurface<'_> {
             }
             return points;
         }
-        self.cluster_points(u, v)
+        self.cluster_points(u, v, lanes)
     }
 }
 
 impl ReceiverSurface<'_> {
     #[inline(never)]
-    fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+    fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet {
         let (centroid, normal) = (self.element.centroid, self.element.normal);
         let mut points = PointOctet::of_triangle([centroid; 3], normal, u, v);
-        for l in 0..8 {
-            let (facet, rest) = choose_facet(self.element, self.area_before, u[l]);
-            let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
+        let (facets, rests) = choose_facets(self.element, self.area_before, u);
+        for l in 0..lanes as usize {
+            let (frame, rest) = (&self.frames[facets[l]], rests[l]);
             let at = match rest + v[l] > 1.0 {
                 true => [1.0 - rest, 1.0 - v[l]],
                 false => [rest, v[l]],
             };
-            points.set(l, corners, self.normals[facet], at);
-            let facet = self.hierarchy.facets[facet];
-            let hidden = self.scene.contacts.is_hidden(facet, points.position(l));
+            points.set(l, frame.at(at), frame.normal);
+            let hidden = frame.is_touched
+                && self
+                    .scene
+                    .contacts
+                    .is_hidden(frame.facet, points.position(l));
             points.swallowed |= u8::from(hidden) << l;
         }
         points
@@ -73,8 +76,8 @@ pub struct SourceSurface<'a, const C: usize> {
     pub scene: &'a Scene,
     /// Its hierarchy.
     pub hierarchy: &'a Hierarchy,
-    /// Unit normals of the facets.
-    pub normals: &'a [Vec3],
+    /// Where points on its facets lie.
+    pub frames: &'a [FacetFrame],
     /// Sums of the unshot power before each facet.
     pub power_before: &'a [f64],
     /// What every owner's patches have to shoot.
@@ -91,7 +94,7 @@ pub struct SourceSurface<'a, const C: usize> {
 
 impl<const C: usize> Surface for SourceSurface<'_, C> {
     #[inline(always)]
-    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+    fn points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet {
         let normal = self.element.normal;
         if let Shape::Triangle(corners) = self.element.shape {
             let shooter = &self.shooters[self.owner as usize];
@@ -111,24 +114,29 @@ impl<const C: usize> Surface for SourceSurface<'_, C> {
             }
             return points;
         }
-        self.cluster_points(u, v)
+        self.cluster_points(u, v, lanes)
     }
 }
 
 impl<const C: usize> SourceSurface<'_, C> {
     #[inline(never)]
-    fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet {
+    fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet {
         let (centroid, normal) = (self.element.centroid, self.element.normal);
         let mut points = PointOctet::of_triangle([centroid; 3], normal, u, v);
-        for l in 0..8 {
-            let (facet, rest) = choose_facet(self.element, self.power_before, u[l]);
+        let (facets, rests) = choose_facets(self.element, self.power_before, u);
+        for l in 0..lanes as usize {
+            let (facet, frame) = (facets[l], &self.frames[facets[l]]);
             let owner = self.owner_of_facet[facet];
             let slot = facet as u32 - self.first_facets[owner as usize];
-            let corners = self.scene.facet_corners(self.hierarchy.facets[facet]);
-            let normal = self.normals[facet];
-            let at = lit_point(&self.shooters[owner as usize].splits, slot, [rest, v[l]]);
-            points.set(l, corners, normal, at);
-            self.hide(&mut points, l, self.hierarchy.facets[facet]);
+            let at = lit_point(
+                &self.shooters[owner as usize].splits,
+                slot,
+                [rests[l], v[l]],
+            );
+            points.set(l, frame.at(at), frame.normal);
+            if frame.is_touched {
+                self.hide(&mut points, l, frame.facet);
+            }
         }
         points
     }
@@ -170,17 +178,38 @@ fn lit_point(splits: &[PatchSplit], slot: u32, [mut u, v]: [f32; 2]) -> [f32; 2]
     [along + scale * u, across + scale * v]
 }
 
-/// Chooses a facet of a cluster in proportion to what `before` sums, and what is left of `u` inside it.
-fn choose_facet(element: &Element, before: &[f64], u: f32) -> (usize, f32) {
+/// Chooses eight facets of a cluster in proportion to what `before` sums, and what is left of each `u` inside its facet.
+/// The eight searches go in step, so that they wait for the memory together.
+#[inline(always)]
+fn choose_facets(element: &Element, before: &[f64], u: &[f32; 8]) -> ([usize; 8], [f32; 8]) {
     let first = element.first_facet as usize;
-    let sums = &before[first..=first + element.facet_count as usize];
-    let target = sums[0] + f64::from(u) * (sums[sums.len() - 1] - sums[0]);
-    let chosen = sums[1..sums.len() - 1].partition_point(|&x| x <= target);
-    let share = sums[chosen + 1] - sums[chosen];
-    let rest = if share > 0.0 {
-        ((target - sums[chosen]) / share) as f32
-    } else {
-        0.5
-    };
-    (first + chosen, rest.clamp(0.0, BELOW_ONE))
+    let count = element.facet_count as usize;
+    let sums = &before[first..=first + count];
+    let whole = sums[count] - sums[0];
+    let target = u.map(|u| sums[0] + f64::from(u) * whole);
+    // The last facet in front of which no more than the target lies, by halving.
+    let mut chosen = [0usize; 8];
+    let mut candidates = count;
+    while candidates > 1 {
+        let half = candidates / 2;
+        for l in 0..8 {
+            let middle = chosen[l] + half;
+            chosen[l] = if sums[middle] <= target[l] {
+                middle
+            } else {
+                chosen[l]
+            };
+        }
+        candidates -= half;
+    }
+    let rests = std::array::from_fn(|l| {
+        let share = sums[chosen[l] + 1] - sums[chosen[l]];
+        let rest = if share > 0.0 {
+            ((target[l] - sums[chosen[l]]) / share) as f32
+        } else {
+            0.5
+        };
+        rest.clamp(0.0, BELOW_ONE)
+    });
+    (chosen.map(|facet| first + facet), rests)
 }

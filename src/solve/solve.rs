@@ -5,6 +5,7 @@ use super::claims::{Claim, ClaimSample};
 use super::config::{Normalise, SolveConfig, Stop};
 use super::element::Element;
 use super::error::SolveError;
+use super::facet_frame::FacetFrame;
 use super::guarantees::Guarantees;
 use super::ledger::{Escape, RadiatingPatch, absorbed_power, escape};
 use super::observer::Observer;
@@ -96,6 +97,8 @@ pub fn resume(
 pub struct FacetTable<const C: usize> {
     /// Unit normals.
     pub normals: Vec<Vec3>,
+    /// Where points on them lie.
+    pub frames: Vec<FacetFrame>,
     /// Areas, normalised.
     pub areas: Vec<f64>,
     /// Sums of the areas before each facet; one longer.
@@ -126,6 +129,7 @@ impl<const C: usize> FacetTable<C> {
         };
         let mut table = Self {
             normals: Vec::with_capacity(hierarchy.facets.len()),
+            frames: Vec::new(),
             areas: Vec::with_capacity(hierarchy.facets.len()),
             area_before: vec![0.0],
             reflectance: Vec::with_capacity(hierarchy.facets.len()),
@@ -153,6 +157,7 @@ impl<const C: usize> FacetTable<C> {
                 .emitted
                 .push(std::array::from_fn(|k| PI * (emission[k] / unit)));
         }
+        table.frames = FacetFrame::of_all(scene, hierarchy, &table.normals);
         table
     }
 
@@ -316,6 +321,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             guarantees: self.guarantees,
             elements: &self.elements,
             normals: &self.table.normals,
+            frames: &self.table.frames,
             area_before: &self.table.area_before,
             polygon_area: self.table.polygon_area,
             tau: self.scene.tau(),

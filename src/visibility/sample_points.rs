@@ -55,9 +55,9 @@ impl PointOctet {
         Vec3::from_array(self.position.map(|axis| axis[l]))
     }
 
-    /// Replaces lane `l` by a point of another plane, as [`Self::at`] does.
-    pub fn set(&mut self, l: usize, [a, b, c]: [Vec3; 3], normal: Vec3, [along, across]: [f32; 2]) {
-        let position = a + (b - a) * along + (c - a) * across;
+    /// Replaces lane `l` by another point, of a plane with the given unit normal.
+    #[inline(always)]
+    pub fn set(&mut self, l: usize, position: Vec3, normal: Vec3) {
         for axis in 0..3 {
             self.position[axis][l] = position[axis];
             self.normal[axis][l] = normal[axis];
@@ -67,6 +67,7 @@ impl PointOctet {
 
 /// An element that can be sampled: a receiver uniformly by area, a source by its light.
 pub trait Surface {
-    /// The points at eight `(u, v)` in [0,1)^2; uniform in gives that out.
-    fn points(&self, u: &[f32; 8], v: &[f32; 8]) -> PointOctet;
+    /// The points at the first `lanes` of eight `(u, v)` in [0,1)^2; uniform in gives that out. What the other
+    /// lanes hold is finite and means nothing.
+    fn points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet;
 }

@@ -183,7 +183,10 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
             while index < end {
                 let lanes = (end - index).min(8);
                 let [u, v, s, t] = sequence.points(index);
-                let (from, to) = (self.source.points(&u, &v), self.receiver.points(&s, &t));
+                let (from, to) = (
+                    self.source.points(&u, &v, lanes),
+                    self.receiver.points(&s, &t, lanes),
+                );
                 let mut trimmed = trim(&from, &to, self.tau, lanes);
                 trimmed.forget(from.absent | to.absent);
                 for weight in trimmed.weight {
