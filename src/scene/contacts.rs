@@ -1,9 +1,10 @@
 //! Where a solid stands on a surface: there the surface is hidden, though nothing lies in front of it by
 //! more than tau. Rays that are trimmed by tau (see [`crate::visibility`]) would start inside the solid, so
-//! samples ask here instead.
+//! samples ask here instead. And which sides lie wholly on others, that receive their light.
 
 use super::facet::Facet;
-use super::side_graph::{SideIndex, side_index};
+use super::overlap::Overlaps;
+use super::side_graph::{SideIndex, facet_at, side_index};
 use crate::math::Aabb;
 use glam::{DVec3, Vec3};
 
@@ -14,6 +15,8 @@ pub struct Contacts {
     first: Vec<u32>,
     nodes: Vec<Node>,
     covers: Vec<Cover>,
+    /// Sides whose whole area others own, ascending.
+    covered: Vec<SideIndex>,
 }
 
 /// A node of a tree of boxes, in depth-first order.
@@ -54,6 +57,22 @@ impl Cover {
 }
 
 impl Contacts {
+    /// The same with the sides that `overlaps` found covered, of so many.
+    #[must_use]
+    pub(super) fn with_covered(mut self, overlaps: &Overlaps, sides: usize) -> Self {
+        self.covered = (0..sides as SideIndex)
+            .filter(|&side| overlaps.is_covered(facet_at(side)))
+            .collect();
+        self
+    }
+
+    /// Whether other sides that face the same way in the same plane own the whole of this one: what arrives here,
+    /// they receive.
+    pub fn is_covered(&self, facet: Facet) -> bool {
+        let side = side_index(facet.polygon, facet.side);
+        self.covered.binary_search(&side).is_ok()
+    }
+
     /// From pairs of a side and a triangle that hides it there, sorted by side. Points within `margin` of
     /// a triangle count as hidden, so that none is lost between two of them.
     pub(super) fn new(sides: usize, pairs: &[(SideIndex, [Vec3; 3])], margin: f32) -> Self {

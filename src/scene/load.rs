@@ -162,7 +162,8 @@ fn load(
         warnings,
     };
     let overlaps = find_overlaps(&scene);
-    scene.contacts = find_contacts(&scene, &overlaps);
+    let sides = 2 * scene.polygons.len();
+    scene.contacts = find_contacts(&scene, &overlaps).with_covered(&overlaps, sides);
     warn_of_overlaps(&mut scene, &overlaps);
     Ok(scene)
 }

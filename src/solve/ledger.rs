@@ -8,7 +8,7 @@ use super::solution::PatchPath;
 use crate::cluster::Hierarchy;
 use crate::embree::{CommittedScene, Ray};
 use crate::math::{FacetId, SampleSequence};
-use crate::scene::{Scene, Side};
+use crate::scene::{Facet, Scene, Side};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -112,7 +112,14 @@ pub fn escape(
                     Some(hit) => {
                         let [a, b, c] = scene.corners(hit.polygon);
                         let back = (b - a).cross(c - a).dot(ray.direction) > 0.0;
-                        count.1 += usize::from(!has_side[hit.polygon.index()][usize::from(back)]);
+                        let facet = Facet {
+                            polygon: hit.polygon,
+                            side: if back { Side::Back } else { Side::Front },
+                        };
+                        // What falls on a covered side is received by those that lie with it.
+                        let received = has_side[hit.polygon.index()][usize::from(back)]
+                            || scene.contacts.is_covered(facet);
+                        count.1 += usize::from(!received);
                     }
                 }
             }
