@@ -23,6 +23,24 @@ impl Aabb {
         points.into_iter().fold(Self::EMPTY, Self::with_point)
     }
 
+    /// The smallest box around a triangle with finite corners: by comparisons, where `f32::min` would look for NaN too.
+    #[inline]
+    pub fn of_triangle([a, b, c]: [Vec3; 3]) -> Self {
+        let least = |a: f32, b: f32| if a < b { a } else { b };
+        let greatest = |a: f32, b: f32| if a > b { a } else { b };
+        let fold = |by: fn(f32, f32) -> f32| {
+            Vec3::new(
+                by(by(a.x, b.x), c.x),
+                by(by(a.y, b.y), c.y),
+                by(by(a.z, b.z), c.z),
+            )
+        };
+        Self {
+            min: fold(least),
+            max: fold(greatest),
+        }
+    }
+
     /// This box grown to contain `point`.
     #[must_use]
     pub fn with_point(self, point: Vec3) -> Self {

@@ -147,10 +147,7 @@ impl Element {
             node,
             path,
             shape: Shape::Triangle(corners),
-            bounds: Aabb {
-                min: a.min(b).min(c),
-                max: a.max(b).max(c),
-            },
+            bounds: Aabb::of_triangle(corners),
             centroid,
             normal,
             cone_sin: 0.0,
@@ -165,16 +162,20 @@ impl Element {
         }
     }
 
-    /// Child `which` of a triangle, split at its edge midpoints.
+    /// Child `which` of a triangle, split at its edge midpoints: all that does not follow from its own corners is
+    /// the parent's, halved.
     pub fn triangle_child(&self, corners: [Vec3; 3], which: u32) -> Self {
-        Self::of_triangle(
-            self.node,
-            self.path.child(which),
-            split_triangle(corners, which),
-            self.normal,
-            self.area * 0.25,
-            self.first_facet,
-        )
+        let corners = split_triangle(corners, which);
+        let [a, b, c] = corners;
+        Self {
+            path: self.path.child(which),
+            shape: Shape::Triangle(corners),
+            bounds: Aabb::of_triangle(corners),
+            centroid: (a + b + c) * (1.0 / 3.0),
+            area: self.area * 0.25,
+            radius: self.radius * 0.5,
+            ..*self
+        }
     }
 
     /// The facet of a triangle element.
@@ -208,7 +209,10 @@ impl Element {
     pub fn faces_away(&self, other: &Self, tolerance: f32) -> bool {
         match self.shape {
             Shape::Volume => false,
-            Shape::Triangle(_) => self.plane_range(other)[1] <= tolerance,
+            // Most often the centroid alone shows that it does not.
+            Shape::Triangle(_) => {
+                self.height(other.centroid) <= tolerance && self.plane_range(other)[1] <= tolerance
+            }
             Shape::Cluster => {
                 if self.cone_cos <= 0.0 {
                     return false;
@@ -266,8 +270,13 @@ impl Element {
     /// True when every segment from a point of this triangle to one of `other` leaves its plane at a cosine above
     /// `least`, by a safe margin. False for clusters.
     pub fn faces_beyond(&self, other: &Self, least: f32) -> bool {
-        let greatest = (other.centroid - self.centroid).length() + other.radius + self.radius;
-        self.is_triangle() && self.plane_range(other)[0] > 2.0 * least * greatest
+        let apart = (other.centroid - self.centroid).length() + other.radius + self.radius;
+        self.is_triangle() && self.plane_range(other)[0] > 2.0 * least * apart
+    }
+
+    /// Signed distance of a point to the plane.
+    fn height(&self, point: Vec3) -> f32 {
+        self.plane_normal.dot(point) - self.plane_offset
     }
 
     /// Least and greatest signed distance of another element to this one's plane: of a triangle by its corners
@@ -275,8 +284,12 @@ impl Element {
     fn plane_range(&self, other: &Self) -> [f32; 2] {
         let n = self.plane_normal;
         if let Shape::Triangle(corners) = other.shape {
-            let [a, b, c] = corners.map(|p| n.dot(p) - self.plane_offset);
-            return [a.min(b).min(c), a.max(b).max(c)];
+            let [a, b, c] = corners.map(|p| self.height(p));
+            let (least, most) = if a < b { (a, b) } else { (b, a) };
+            return [
+                if c < least { c } else { least },
+                if c > most { c } else { most },
+            ];
         }
         let (plus, minus) = (n.max(Vec3::ZERO), n.min(Vec3::ZERO));
         let (lo, hi) = (other.bounds.min, other.bounds.max);

@@ -117,12 +117,12 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         &mut self,
         source: &Source,
         receiver: &Receiver,
+        greatest: f64,
         known: Known,
     ) -> Known {
         if self.prover.is_none() || known.knowledge.verdict != Verdict::Unknown {
             return known;
         }
-        let greatest = self.greatest(source);
         let Some(prover) = &mut self.prover else {
             return known;
         };

@@ -29,7 +29,8 @@ impl<const C: usize> Task<'_, '_, C> {
             element: self.pass.context.elements[self.gatherer.root.index()],
             local: 0,
         };
-        self.walk(&source, &receiver, Known::NOTHING);
+        let greatest = self.greatest(&source);
+        self.walk(&source, &receiver, greatest, Known::NOTHING);
         let technique = self.pass.config.technique;
         let unlearned = || QuerySchedule::new(technique);
         TaskOutcome {
@@ -39,8 +40,8 @@ impl<const C: usize> Task<'_, '_, C> {
         }
     }
 
-    fn walk(&mut self, source: &Source, receiver: &Receiver, known: Known) {
-        let greatest = self.greatest(source);
+    /// Decides a pair whose source has the unshot radiosity `greatest`, of its greatest channel.
+    fn walk(&mut self, source: &Source, receiver: &Receiver, greatest: f64, known: Known) {
         if greatest <= 0.0 || self.is_interrupted() {
             return;
         }
@@ -58,29 +59,38 @@ impl<const C: usize> Task<'_, '_, C> {
                 let by_source = source.element.radius >= receiver.element.radius
                     && !source.element.is_triangle()
                     || receiver.element.is_triangle();
-                self.split(source, receiver, known, by_source);
+                self.split(source, receiver, greatest, known, by_source);
             }
             Decision::Exchange => match self.exchange(source, receiver, greatest, known) {
                 Next::Done => {}
-                Next::SplitSource => self.split(source, receiver, known, true),
-                Next::SplitReceiver => self.split(source, receiver, known, false),
-                Next::SplitShadow(known) => self.split_receiver(source, receiver, known.below()),
+                Next::SplitSource => self.split(source, receiver, greatest, known, true),
+                Next::SplitReceiver => self.split(source, receiver, greatest, known, false),
+                Next::SplitShadow(known) => {
+                    self.split_receiver(source, receiver, greatest, known.below());
+                }
             },
-            Decision::SplitSource => self.split(source, receiver, known, true),
-            Decision::SplitReceiver => self.split(source, receiver, known, false),
+            Decision::SplitSource => self.split(source, receiver, greatest, known, true),
+            Decision::SplitReceiver => self.split(source, receiver, greatest, known, false),
         }
     }
 
     /// Asks for a guarantee where it is due, and goes on with the children of one end.
-    fn split(&mut self, source: &Source, receiver: &Receiver, known: Known, by_source: bool) {
-        let known = self.prove_before_split(source, receiver, known);
+    fn split(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        greatest: f64,
+        known: Known,
+        by_source: bool,
+    ) {
+        let known = self.prove_before_split(source, receiver, greatest, known);
         if known.ends_the_pair(self.pass.config) {
             return;
         }
         if by_source {
             self.split_source(source, receiver, known.below());
         } else {
-            self.split_receiver(source, receiver, known.below());
+            self.split_receiver(source, receiver, greatest, known.below());
         }
     }
 
@@ -107,17 +117,25 @@ impl<const C: usize> Task<'_, '_, C> {
                         first + which
                     },
                 };
-                self.walk(&child, receiver, known);
+                let greatest = self.greatest(&child);
+                self.walk(&child, receiver, greatest, known);
             }
         } else if let Some(children) = self.pass.context.hierarchy.children(source.element.node) {
             for child in children {
                 let child = self.source_of_node(child);
-                self.walk(&child, receiver, known);
+                let greatest = self.greatest(&child);
+                self.walk(&child, receiver, greatest, known);
             }
         }
     }
 
-    fn split_receiver(&mut self, source: &Source, receiver: &Receiver, known: Known) {
+    fn split_receiver(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        greatest: f64,
+        known: Known,
+    ) {
         let context = self.pass.context;
         if let Shape::Triangle(corners) = receiver.element.shape {
             for which in 0..4 {
@@ -125,7 +143,7 @@ impl<const C: usize> Task<'_, '_, C> {
                     element: receiver.element.triangle_child(corners, which),
                     local: 0,
                 };
-                self.walk(source, &child, known);
+                self.walk(source, &child, greatest, known);
             }
         } else if let Some(children) = context.hierarchy.children(receiver.element.node) {
             let locals = local_children(context.hierarchy, children[0], receiver.local as usize);
@@ -134,7 +152,7 @@ impl<const C: usize> Task<'_, '_, C> {
                     element: context.elements[child.index()],
                     local: local as u32,
                 };
-                self.walk(source, &child, known);
+                self.walk(source, &child, greatest, known);
             }
         }
     }
