@@ -9,6 +9,7 @@ mod element_name;
 mod error;
 mod exchange;
 mod facet_frame;
+mod facet_table;
 #[cfg(test)]
 mod fixture;
 mod form_factor;
