@@ -262,5 +262,6 @@ fn stats_file(
         passes: solved.passes.clone(),
         seconds: SecondsBlock::default(),
         power: solved.power,
+        row_scales: solved.normalised.clone(),
     }
 }

@@ -39,6 +39,13 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         share(power.unshot),
         100.0 * power.imbalance
     ));
+    if let Some(scales) = &stats.row_scales {
+        let least = scales.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = scales.iter().copied().fold(0.0, f64::max);
+        print_line(format_args!(
+            "row normalisation: what arrived in a pass was scaled by {least:.6} to {greatest:.6}"
+        ));
+    }
     let s = &stats.seconds;
     print_line(format_args!(
         "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, solve {:.2}, output {:.2}",

@@ -54,6 +54,9 @@ pub struct StatsFile {
     pub seconds: SecondsBlock,
     /// Where the light went.
     pub power: PowerLedger,
+    /// By how much row normalisation scaled what arrived in each pass; absent where it was off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub row_scales: Option<Vec<f64>>,
 }
 
 /// The input as it was taken in.
@@ -252,6 +255,7 @@ mod tests {
             passes: vec![PassStatistics::default(); 2],
             seconds: SecondsBlock::default(),
             power: PowerLedger::default(),
+            row_scales: None,
         }
     }
 

@@ -192,3 +192,29 @@ fn the_header_of_the_solution_is_the_published_one() {
     let body = mesh.vertices.len() * 27 + mesh.faces.len() * 42;
     assert_eq!(bytes.len() - end - 11, body);
 }
+
+#[test]
+fn bright_closed_scenes_report_how_rows_were_normalised() {
+    let folder = Folder::new();
+    for (scene, normalised) in [("furnace-0.95", true), ("furnace-0.9", false)] {
+        let line =
+            format!("solve builtin:{scene} --out {scene} --no-view --passes 2 --epsilon 1e-3");
+        let run = folder.line(&line);
+        run.ends_with(0, scene);
+        assert_eq!(
+            run.stdout.contains("row normalisation"),
+            normalised,
+            "{}",
+            run.stdout
+        );
+        match folder.stats(scene)["row_scales"].as_array() {
+            Some(scales) => {
+                assert!(normalised && scales.len() == 2);
+                // Rows are right to some percent before they are scaled.
+                let near_one = |x: &Value| (x.as_f64().unwrap() - 1.0).abs() < 0.05;
+                assert!(scales.iter().all(near_one), "{scales:?}");
+            }
+            None => assert!(!normalised),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Disks that are full: nothing that was there is lost, and no half file appears.
+
+use crate::command::{COARSE, Folder, Outcome, write_room};
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::{Command, Stdio};
+
+/// What a folder holds.
+fn content(folder: &Folder, name: &str) -> BTreeMap<String, Vec<u8>> {
+    (folder.names(name).into_iter())
+        .filter_map(|file| {
+            let bytes = fs::read(folder.path(name).join(&file)).ok()?;
+            Some((file, bytes))
+        })
+        .collect()
+}
+
+/// Runs a command line in a shell that has done `before`.
+fn shell(folder: &Folder, before: &str, line: &str) -> Outcome {
+    let program = env!("CARGO_BIN_EXE_certilux");
+    let mut command = Command::new("sh");
+    command
+        .current_dir(folder.path(""))
+        .args(["-c", &format!("{before} exec {program} {line}")])
+        .stdin(Stdio::null());
+    Outcome::of(command.output().unwrap())
+}
+
+/// Results of a room, and the line that solves it anew with other light.
+fn solved() -> (Folder, String) {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder
+        .line(&format!("solve room.obj --out results {COARSE}"))
+        .ends_with(0, "first");
+    let line = format!("solve room.obj --out results --seed 2 {COARSE}");
+    (folder, line)
+}
+
+/// A limit on the size of files fails a write in its middle, as a full disk does, for any user.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_write_that_fails_in_its_middle_leaves_the_old_results() {
+    let (folder, line) = solved();
+    let old = content(&folder, "results");
+    assert_eq!(
+        old.keys().collect::<Vec<_>>(),
+        ["solution.ply", "stats.json"]
+    );
+    let blocks = old["solution.ply"].len() / 512;
+    assert!(blocks > 16);
+    for limit in [0, 1, blocks / 2, blocks - 8] {
+        // The checkpoint does not fit either, which is no failure by itself.
+        let run = shell(&folder, &format!("trap '' XFSZ; ulimit -f {limit};"), &line);
+        run.ends_with(3, "no room").says(&["solution.ply"]);
+        let now = content(&folder, "results");
+        for (name, bytes) in &old {
+            assert!(now[name] == *bytes, "{name} has changed");
+        }
+        let more: Vec<_> = now.keys().filter(|n| !old.contains_key(*n)).collect();
+        assert!(more.iter().all(|n| *n == "solve.checkpoint"), "{more:?}");
+        assert!(
+            !folder
+                .names("results")
+                .iter()
+                .any(|n| n.ends_with(".partial"))
+        );
+    }
+    // Where a signal ends the program in the middle of a write, the old results stand as well.
+    let run = shell(&folder, &format!("ulimit -f {};", blocks / 2), &line);
+    assert_eq!(run.code, None, "{}", run.stderr);
+    let now = content(&folder, "results");
+    assert!(old.iter().all(|(name, bytes)| now[name] == *bytes));
+    // And once there is room, the solve goes on.
+    folder
+        .line(&format!("{line} --resume"))
+        .ends_with(0, "with room");
+    let new = content(&folder, "results");
+    assert_eq!(
+        new.keys().collect::<Vec<_>>(),
+        ["solution.ply", "stats.json"]
+    );
+    assert!(new["solution.ply"] != old["solution.ply"]);
+}
+
+/// Every command that writes one file.
+#[cfg(target_os = "linux")]
+#[test]
+fn other_files_are_whole_or_as_they_were() {
+    let (folder, _) = solved();
+    for (file, line) in [
+        ("view.png", "view results --out view.png --size 320x240"),
+        ("view.exr", "view results --out view.exr --size 320x240"),
+        ("clusters.ply", "clusters room.obj --out clusters.ply"),
+        (
+            "ref.json",
+            "reference room.obj --out ref.json --error 0.5 --max-seconds 1",
+        ),
+        ("report.html", "report results --out report.html"),
+        ("occluders.obj", "occluders room.obj --out occluders.obj"),
+    ] {
+        folder.write(file, "as it was");
+        let run = shell(&folder, "trap '' XFSZ; ulimit -f 0;", line);
+        run.ends_with(3, line).says(&[file]);
+        assert_eq!(fs::read(folder.path(file)).unwrap(), b"as it was", "{line}");
+        let names = folder.names(".");
+        assert!(!names.iter().any(|n| n.ends_with(".partial")), "{names:?}");
+    }
+}
+
+/// A disk of 24 kB of its own, where the system lets us make one.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_runs_full() {
+    let folder = Folder::new();
+    write_room(&folder);
+    fs::create_dir(folder.path("disk")).unwrap();
+    let program = env!("CARGO_BIN_EXE_certilux");
+    let script = format!(
+        "mount -t tmpfs -o size=24k none disk || exit 99; echo keep > disk/kept; \
+         {program} solve room.obj --out disk/results {COARSE}; code=$?; cat disk/kept; ls disk/results; exit $code"
+    );
+    let output = Command::new("unshare")
+        .current_dir(folder.path(""))
+        .args(["--mount", "--map-root-user", "sh", "-c", &script])
+        .stdin(Stdio::null())
+        .output();
+    match output.map(Outcome::of) {
+        Ok(run) if run.code == Some(3) => {
+            run.says(&["disk/results", "No space left"]);
+            let left: Vec<&str> = run.stdout.split_whitespace().collect();
+            assert!(
+                left == ["keep"] || left == ["keep", "solve.checkpoint"],
+                "{left:?}"
+            );
+        }
+        Ok(run)
+            if run.code != Some(0) && run.stderr.contains("unshare")
+                || run.stderr.contains("mount") =>
+        {
+            println!("no disk can be made here: {}", run.stderr);
+        }
+        Ok(run) => panic!("{:?} {}", run.code, run.stderr),
+        Err(error) => println!("no disk can be made here: {error}"),
+    }
+}
