@@ -1,6 +1,6 @@
 # Every recipe stands alone on a fresh machine: set-up comes first and does nothing the second time.
 
-.PHONY: help setup demo test check check-long bench bench-check fuzz deb
+.PHONY: help setup demo test check check-long readers report-check bench bench-check fuzz deb
 .DEFAULT_GOAL := help
 
 help:
@@ -9,6 +9,8 @@ help:
 	@echo 'make check       the whole gate: format, lints, tests, documentation, licences, a short fuzz'
 	@echo 'make fuzz        FUZZ_SECONDS=15 of fuzzing a target'
 	@echo 'make check-long  what takes too long for every change'
+	@echo 'make readers     what solve writes, read by other projects (needs python3, node, npm and the network)'
+	@echo 'make report-check  a report in headless Chromium, with screenshots (needs node, npm and the network)'
 	@echo 'make bench-check  counts, instructions and time ratios against bench/baseline.json'
 	@echo 'make bench       Embree packet benchmarks (bench/)'
 	@echo 'make deb         a Debian package, on Debian 13 with its Embree (needs cargo-deb)'
@@ -48,7 +50,19 @@ fuzz:
 # Tests marked `ignored` take minutes each.
 check-long: setup
 	cargo test -- --ignored
+	$(MAKE) readers
+	$(MAKE) report-check
 	$(MAKE) fuzz FUZZ_SECONDS=3600
+
+# Other projects' readers are installed into target/ the first time.
+readers: setup
+	cargo build --release
+	tests/readers/check.py target/release/certilux
+
+# Headless Chromium is installed into target/ the first time; the screenshots are left there.
+report-check: setup
+	cargo build --release
+	tests/report/check.sh target/release/certilux
 
 bench: setup
 	cargo bench --features c-baseline --bench embree_packets

@@ -8,7 +8,7 @@ use super::solve_args::{
     OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
 };
 use super::sweep_args::SweepCommand;
-use super::typed_number::parse_finite;
+use super::view_args::ViewCommand;
 use crate::experiment::AuditConfig;
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -116,7 +116,7 @@ pub struct ReportCommand {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Writes into DIR: solution.ply (radiosity and irradiance of every leaf patch), stats.json (counts, times, \
-                  where the power went), view.exr and view.png. While it works, solve.checkpoint holds the state after the last pass: \
+                  where the power went), view.exr and view.png; with --format glb,vtu also solution.glb and solution.vtu. While it works, solve.checkpoint holds the state after the last pass: \
                   the same command with --resume goes on from there, to the same bytes.\n\n\
                   Speed against accuracy: --epsilon first, then --rays. --passes 1 is direct light alone."
 )]
@@ -130,6 +130,10 @@ pub struct SolveCommand {
     /// How to solve.
     #[command(flatten)]
     pub solve: SolveArgs,
+    /// Forms of the solution: solution.ply, which is always written because the other commands read it, and beside it
+    /// solution.glb (glTF, for viewers and modelling programs) and solution.vtu (for ParaView).
+    #[arg(long, value_name = "FORM", value_enum, value_delimiter = ',', default_values_t = [FormArg::Ply])]
+    pub format: Vec<FormArg>,
     /// Leave out view.exr and view.png.
     #[arg(long)]
     pub no_view: bool,
@@ -144,6 +148,17 @@ pub struct SolveCommand {
     pub max_memory: Option<ByteSize>,
 }
 
+/// `--format`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum FormArg {
+    /// The numbers of every patch.
+    Ply,
+    /// glTF 2.0 with colours at the vertices.
+    Glb,
+    /// VTK's unstructured grid with the numbers of every patch.
+    Vtu,
+}
+
 /// `certilux generate`
 #[derive(Debug, clap::Args)]
 pub struct GenerateCommand {
@@ -156,85 +171,6 @@ pub struct GenerateCommand {
     /// List the built-in scenes.
     #[arg(long)]
     pub list: bool,
-}
-
-/// `certilux view`
-#[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Without --eye and --target the camera chooses a place inside the lit space. Lengths are in the scene's units."
-)]
-pub struct ViewCommand {
-    /// A folder that `certilux solve` wrote.
-    #[arg(value_name = "DIR")]
-    pub solved: PathBuf,
-    /// The picture: .exr (radiance, irradiance, normals, depth, face ids) or .png (tone-mapped).
-    #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
-    /// How the camera is placed where no --eye or --target says.
-    #[arg(long, value_enum, default_value_t = CameraArg::Auto)]
-    pub camera: CameraArg,
-    /// Where the camera stands.
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    pub eye: Option<[f64; 3]>,
-    /// What it looks at.
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    pub target: Option<[f64; 3]>,
-    /// What is up.
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
-    pub up: Option<[f64; 3]>,
-    /// Vertical angle of view in degrees.
-    #[arg(long, value_name = "DEG", value_parser = parse_finite, allow_negative_numbers = true)]
-    pub fov: Option<f64>,
-    /// Width and height in pixels.
-    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "960x720")]
-    pub size: PictureSize,
-    /// Stops brighter (or darker) than the automatic exposure of a PNG.
-    #[arg(
-        long,
-        value_name = "EV",
-        default_value_t = 0.0,
-        value_parser = parse_finite,
-        allow_negative_numbers = true
-    )]
-    pub exposure: f64,
-    /// One value a patch instead of smooth shading.
-    #[arg(long)]
-    pub flat: bool,
-}
-
-/// `--camera`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum CameraArg {
-    /// Inside the lit space, where much of it is seen.
-    Auto,
-}
-
-/// Width and height.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PictureSize(pub [u32; 2]);
-
-/// Greatest width or height: 16 k pictures hold 5 GB of layers.
-const GREATEST_SIDE: u32 = 16_384;
-
-fn parse_vector(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|t| t.trim().parse::<f64>().map_err(|e| format!("{t:?}: {e}")))
-        .collect::<Result<_, _>>()?;
-    match numbers[..] {
-        [x, y, z] if numbers.iter().all(|n| n.is_finite()) => Ok([x, y, z]),
-        _ => Err("three finite numbers with commas between them are needed".to_owned()),
-    }
-}
-
-fn parse_size(text: &str) -> Result<PictureSize, String> {
-    let reason = || format!("a size such as 960x720 is needed, each side 1 to {GREATEST_SIDE}");
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(reason)?;
-    let side = |t: &str| match t.parse::<u32>() {
-        Ok(n) if (1..=GREATEST_SIDE).contains(&n) => Ok(n),
-        _ => Err(reason()),
-    };
-    Ok(PictureSize([side(width)?, side(height)?]))
 }
 
 /// `certilux clusters`

@@ -1,6 +1,6 @@
 //! `certilux solve`: OBJ in; solution, picture and numbers out.
 
-use super::args::SolveCommand;
+use super::args::{FormArg, SolveCommand};
 use super::checkpointing::{Checkpointing, is_done};
 use super::error::CliError;
 use super::folder_lock::FolderLock;
@@ -17,7 +17,7 @@ use crate::embree::DeviceConfig;
 use crate::job::MemoryEstimate;
 use crate::output::{
     ContentBlock, Fingerprint, HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh,
-    Staging, StatsFile, ViewConfig, file_hash, write_ply,
+    Staging, StatsFile, ViewConfig, file_hash, write_glb, write_ply, write_vtu,
 };
 use crate::solve::{
     ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, resume, solve,
@@ -66,7 +66,7 @@ fn solve_and_write(
         "scene loaded"
     );
     let fingerprint = Fingerprint::new(&scene, settings(command, config));
-    if command.resume && is_done(&command.out, &fingerprint, names(command)) {
+    if command.resume && is_done(&command.out, &fingerprint, &names(command)) {
         session.say(format_args!(
             "{} holds this solve already; nothing is left to do",
             command.out.display()
@@ -124,6 +124,7 @@ fn solve_and_write(
     let mesh = SolvedMesh::new(&prepared.scene, &solved.solution);
     let solution_path = staging.file("solution.ply")?;
     write_ply(&solution_path, &mesh, &session.interrupted)?;
+    write_forms(session, command, &mesh, &mut staging)?;
     if !command.no_view {
         let picture = render(
             &mesh,
@@ -162,6 +163,7 @@ fn solve_and_write(
     };
     stats.write(&stats_path, &session.interrupted)?;
     let files = staging.publish()?;
+    remove_other_forms(command);
     checkpoint.remove();
     if !session.quiet {
         print_summary(&stats, &files);
@@ -173,11 +175,51 @@ fn solve_and_write(
 }
 
 /// What a whole set of results holds.
-fn names(command: &SolveCommand) -> &'static [&'static str] {
-    const NAMES: [&str; 4] = ["solution.ply", "stats.json", "view.exr", "view.png"];
-    match command.no_view {
-        true => &NAMES[..2],
-        false => &NAMES,
+fn names(command: &SolveCommand) -> Vec<&'static str> {
+    let mut names = vec!["solution.ply", "stats.json"];
+    if !command.no_view {
+        names.extend(["view.exr", "view.png"]);
+    }
+    names.extend(
+        (FORMS.iter()).filter_map(|(form, name)| command.format.contains(form).then_some(*name)),
+    );
+    names
+}
+
+/// The forms that are written on request.
+const FORMS: [(FormArg, &str); 2] = [
+    (FormArg::Glb, "solution.glb"),
+    (FormArg::Vtu, "solution.vtu"),
+];
+
+/// Writes the forms of the solution that were asked for.
+fn write_forms(
+    session: &Session,
+    command: &SolveCommand,
+    mesh: &SolvedMesh,
+    staging: &mut Staging,
+) -> Result<(), OutputError> {
+    for (form, name) in FORMS {
+        if !command.format.contains(&form) {
+            continue;
+        }
+        let path = staging.file(name)?;
+        match form {
+            FormArg::Ply => {}
+            FormArg::Glb => write_glb(&path, mesh, &session.interrupted)?,
+            FormArg::Vtu => write_vtu(&path, mesh, &session.interrupted)?,
+        }
+    }
+    Ok(())
+}
+
+/// Removes the forms of an earlier solution that this solve was not asked for: they would be of other light.
+fn remove_other_forms(command: &SolveCommand) {
+    for (form, name) in FORMS {
+        if !command.format.contains(&form) {
+            // What cannot be removed is no failure of the solve; most often it is not there.
+            let _ = std::fs::remove_file(command.out.join(name));
+        }
     }
 }
 

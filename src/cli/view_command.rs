@@ -1,49 +1,114 @@
 //! `certilux view`: a picture of a solved folder from any place.
 
-use super::args::ViewCommand;
 use super::error::CliError;
-use super::render::{PictureFormat, render, write_picture};
+use super::render::{PictureFormat, write_picture};
 use super::session::Session;
-use crate::output::{Camera, Shading, View, ViewConfig, read_ply};
+use super::solve_command::with_threads;
+use super::view_args::{ShowArg, ViewCommand};
+use super::view_exhibit::{Subject, exhibit};
+use crate::embree::{Device, DeviceConfig};
+use crate::output::{Camera, Shading, View, ViewConfig};
 use glam::DVec3;
 
 /// Renders DIR/solution.ply.
 pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
-    // A name that no picture can have is better known before the work than after.
-    PictureFormat::of(&command.out)?;
-    let mesh = read_ply(&command.solved.join("solution.ply")).map_err(CliError::Solution)?;
+    check(command)?;
+    with_threads(command.threads, || take(session, command))
+}
+
+/// What is better known before the work than after.
+fn check(command: &ViewCommand) -> Result<(), CliError> {
+    let refuse = |reason: String| Err(CliError::Argument(reason));
+    let format = PictureFormat::of(&command.out)?;
+    let show = command.show;
+    let layers = matches!(show, ShowArg::Radiance | ShowArg::Irradiance);
+    let name = clap::ValueEnum::to_possible_value(&show)
+        .map_or_else(String::new, |v| v.get_name().to_owned());
+    if format == PictureFormat::Exr && !layers {
+        return refuse(format!(
+            "--show {name} makes a picture for the eye: --out must end in .png"
+        ));
+    }
+    if command.gather > 0 && !show.has_light() {
+        return refuse(format!(
+            "--show {name} shows no light that --gather could gather"
+        ));
+    }
+    match (show, &command.reference) {
+        (ShowArg::Error, None) => refuse(
+            "--show error needs --reference FILE.json, which certilux reference makes".to_owned(),
+        ),
+        (ShowArg::Error, Some(_)) | (_, None) => Ok(()),
+        (_, Some(_)) => refuse(format!("--show {name} compares with no --reference")),
+    }
+}
+
+fn take(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
+    let subject = Subject::read(session, command)?;
+    let device = Device::new(&DeviceConfig::default())?;
+    let view = View::new(&subject.mesh, &device)?;
+    let camera = camera(&view, command).pin_hole()?;
     let config = ViewConfig {
         shading: if command.flat {
             Shading::Flat
         } else {
             Shading::Smooth
         },
+        gather: command.gather,
         ..ViewConfig::default()
     };
-    let picture = render(
-        &mesh,
-        |view| camera(view, command),
-        &config,
-        &session.interrupted,
-    )?;
-    write_picture(
-        &command.out,
-        &picture,
-        command.exposure,
-        &session.interrupted,
-    )?;
+    let picture = match command.show.has_light() {
+        true => Some(
+            (view.render(&camera, &config, &session.interrupted)).ok_or(CliError::Interrupted)?,
+        ),
+        false => None,
+    };
+    let plain =
+        command.show == ShowArg::Radiance || PictureFormat::of(&command.out)? == PictureFormat::Exr;
+    match picture.as_ref().filter(|_| plain) {
+        Some(picture) => write_picture(
+            &command.out,
+            picture,
+            command.exposure,
+            &session.interrupted,
+        )?,
+        None => {
+            let shown = exhibit(
+                session,
+                command,
+                subject.matter,
+                &view,
+                &camera,
+                picture,
+                &device,
+            )?;
+            if let Some(scale) = &shown.scale {
+                session.say(format_args!("{}", scale.describe()));
+            }
+            shown.write_png(&command.out, &session.interrupted)?;
+        }
+    }
     session.say(format_args!("wrote {}", command.out.display()));
     Ok(())
 }
 
 /// The automatic camera with whatever was asked for put in its place.
 fn camera(view: &View, command: &ViewCommand) -> Camera {
-    let automatic = view.automatic_camera(command.size.0);
+    let given = command.eye.is_some() && command.target.is_some();
+    let size = command.size.0;
+    // Looking for a place takes seconds in a large scene.
+    let automatic = match (given, command.up, command.fov) {
+        (true, Some(_), Some(_)) => None,
+        _ => Some(view.automatic_camera(size)),
+    };
+    let or = |given: Option<[f64; 3]>, automatic: Option<DVec3>| {
+        (given.map(DVec3::from).or(automatic)).unwrap_or_default()
+    };
     Camera {
-        eye: command.eye.map_or(automatic.eye, DVec3::from),
-        target: command.target.map_or(automatic.target, DVec3::from),
-        up: command.up.map_or(automatic.up, DVec3::from),
-        fov: command.fov.unwrap_or(automatic.fov),
-        size: command.size.0,
+        eye: or(command.eye, automatic.map(|a| a.eye)),
+        target: or(command.target, automatic.map(|a| a.target)),
+        up: or(command.up, automatic.map(|a| a.up)),
+        fov: (command.fov.or(automatic.map(|a| a.fov))).unwrap_or_default(),
+        size,
     }
 }

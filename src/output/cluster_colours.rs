@@ -95,7 +95,7 @@ fn encode(
 }
 
 /// A colour for cluster number `index`: hues by the golden ratio, in three alternating shades.
-fn cluster_colour(index: usize) -> [u8; 3] {
+pub(super) fn cluster_colour(index: usize) -> [u8; 3] {
     let hue = (index as f64 * HUE_STEP).fract() * 6.0;
     let value = [0.95, 0.75, 0.55][index % 3];
     let channel = |offset: f64| {

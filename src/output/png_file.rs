@@ -29,13 +29,17 @@ pub fn write_png(
             [r, g, b, (255.0 * alpha + 0.5) as u8]
         })
         .collect();
-    write(
-        path,
-        picture.size,
-        png::ColorType::Rgba,
-        &bytes,
-        interrupted,
-    )
+    write_rgba_png(path, picture.size, &bytes, interrupted)
+}
+
+/// As [`write_rgb_png`] with a fourth byte, alpha.
+pub(super) fn write_rgba_png(
+    path: &Path,
+    size: [u32; 2],
+    pixels: &[u8],
+    interrupted: &AtomicBool,
+) -> Result<(), OutputError> {
+    write(path, size, png::ColorType::Rgba, pixels, interrupted)
 }
 
 /// Writes 8-bit sRGB pixels, three bytes each, row by row from the top, whole or not at all.

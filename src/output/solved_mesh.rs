@@ -38,15 +38,6 @@ pub struct SolvedMesh {
 impl SolvedMesh {
     /// Maps a solution back to the units of its scene. Time and memory grow with the patches.
     pub fn new(scene: &Scene, solution: &Solution) -> Self {
-        let mut order: Vec<u32> = (0..solution.facets.len())
-            .map(|f| FacetId::new(f).0)
-            .collect();
-        let key = |f: u32| {
-            let facet = solution.facets[f as usize];
-            (facet.polygon, facet.side)
-        };
-        order.sort_unstable_by_key(|&f| key(f));
-
         let mut builder = Builder {
             scene,
             mesh: Self {
@@ -55,24 +46,8 @@ impl SolvedMesh {
             },
             index: HashMap::with_capacity(scene.source_positions.len()),
         };
-        let mut next = order.into_iter().peekable();
-        for p in 0..scene.polygons.len() {
-            let polygon = PolygonId::new(p);
-            let mut lit = false;
-            while let Some(f) = next.next_if(|&f| key(f).0 == polygon) {
-                lit = true;
-                let facet = solution.facets[f as usize];
-                builder.add_facet(facet, solution.facet_patches(FacetId(f)));
-            }
-            if !lit {
-                builder.add_facet(
-                    Facet {
-                        polygon,
-                        side: Side::Front,
-                    },
-                    &[UNLIT],
-                );
-            }
+        for (facet, id) in in_file_order(scene, solution) {
+            builder.add_facet(facet, id.map_or(&[UNLIT], |id| solution.facet_patches(id)));
         }
         builder.mesh
     }
@@ -86,6 +61,28 @@ impl SolvedMesh {
     pub fn area(&self, face: &SolvedFace) -> f64 {
         triangle_area(self.corners(face))
     }
+}
+
+/// The facets of a solution polygon by polygon, the front before the back, with their ids; a polygon without a lit side
+/// stands there by its front, without one.
+pub(super) fn in_file_order(scene: &Scene, solution: &Solution) -> Vec<(Facet, Option<FacetId>)> {
+    let mut order: Vec<FacetId> = (0..solution.facets.len()).map(FacetId::new).collect();
+    let facet = |id: &FacetId| solution.facets[id.index()];
+    order.sort_unstable_by_key(|id| (facet(id).polygon, facet(id).side));
+    let mut next = order.into_iter().peekable();
+    let mut all = Vec::with_capacity(solution.facets.len());
+    for p in 0..scene.polygons.len() {
+        let polygon = PolygonId::new(p);
+        let before = all.len();
+        while let Some(id) = next.next_if(|id| facet(id).polygon == polygon) {
+            all.push((facet(&id), Some(id)));
+        }
+        if all.len() == before {
+            let side = Side::Front;
+            all.push((Facet { polygon, side }, None));
+        }
+    }
+    all
 }
 
 /// The whole of a polygon that no light reaches and that emits none.

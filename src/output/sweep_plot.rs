@@ -25,7 +25,7 @@ pub enum SweepCost {
 /// Width and height in pixels.
 const SIZE: (u32, u32) = (1200, 800);
 /// The one font: it comes with the program, so that pictures do not depend on the machine's.
-const FONT: &str = "sans-serif";
+pub(super) const FONT: &str = "sans-serif";
 /// Room left of the least and right of the greatest value, as a factor.
 const ROOM: f64 = 1.4;
 /// Least ratio of an axis's ends: a narrower one would have no power of ten to label.
@@ -70,8 +70,7 @@ pub fn write_sweep_plot(
         path: path.to_path_buf(),
         reason,
     };
-    register_font(FONT, FontStyle::Normal, notosans::REGULAR_TTF)
-        .map_err(|_| failed("the built-in font cannot be read".to_owned()))?;
+    register_built_in_font().map_err(failed)?;
     let mut svg = String::new();
     plot.draw(&SVGBackend::with_string(&mut svg, SIZE).into_drawing_area())
         .map_err(|e| failed(e.to_string()))?;
@@ -86,6 +85,12 @@ pub fn write_sweep_plot(
         &pixels,
         interrupted,
     )
+}
+
+/// Makes [`FONT`] known to the drawing library.
+pub(super) fn register_built_in_font() -> Result<(), String> {
+    register_font(FONT, FontStyle::Normal, notosans::REGULAR_TTF)
+        .map_err(|_| "the built-in font cannot be read".to_owned())
 }
 
 /// Ends of a logarithmic axis that holds these positive values.

@@ -59,6 +59,11 @@ impl ToneMap {
         self.scale
     }
 
+    /// A linear colour as the linear light of a display, in [0, 1].
+    pub fn display(self, colour: [f32; 3]) -> [f32; 3] {
+        colour.map(|c| filmic(self.scale * f64::from(c).max(0.0)) as f32)
+    }
+
     /// A linear colour as 8-bit sRGB.
     pub fn encode(self, colour: [f32; 3]) -> [u8; 3] {
         colour.map(|c| {
@@ -83,7 +88,7 @@ fn filmic(x: f64) -> f64 {
 }
 
 /// The sRGB transfer function (IEC 61966-2-1) of a linear value in [0, 1].
-fn srgb(linear: f64) -> f64 {
+pub(super) fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
     } else {

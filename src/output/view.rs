@@ -1,6 +1,7 @@
 //! Renders a solved mesh: primary rays through Embree, patches looked up under the hits.
 
 use super::camera::PinHole;
+use super::gathering::Gathering;
 use super::panel::Panels;
 use super::smoothing::{Smoothing, reflectance};
 use super::{Picture, Pixel, SolvedMesh};
@@ -24,11 +25,15 @@ pub enum Shading {
 
 /// How a picture is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ViewConfig {
     /// Smooth or flat.
     pub shading: Shading,
     /// Rays along each side of a pixel; their square is the number of rays a pixel, 1 to 16 a side.
     pub samples_a_side: u32,
+    /// Final gathering with so many rays a pixel, which also look past the pixel's edges in place of
+    /// `samples_a_side`; 0 shows the solution itself.
+    pub gather: u32,
 }
 
 impl Default for ViewConfig {
@@ -37,6 +42,7 @@ impl Default for ViewConfig {
         Self {
             shading: Shading::Smooth,
             samples_a_side: 3,
+            gather: 0,
         }
     }
 }
@@ -100,11 +106,23 @@ impl Frame {
     }
 }
 
-/// What lies under a ray.
+/// The light of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Seen {
-    radiosity: [f32; 3],
-    irradiance: [f32; 3],
+pub(super) struct Seen {
+    pub radiosity: [f32; 3],
+    pub irradiance: [f32; 3],
+}
+
+/// A place on a side that has light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Landing {
+    pub panel: usize,
+    /// The patch under it, an index of the mesh's faces.
+    pub leaf: usize,
+    /// Barycentric weights in the panel.
+    pub weights: [f64; 3],
+    /// Barycentric weights in the patch.
+    pub local: [f64; 3],
 }
 
 impl<'a> View<'a> {
@@ -134,6 +152,11 @@ impl<'a> View<'a> {
         })
     }
 
+    /// The mesh.
+    pub fn mesh(&self) -> &SolvedMesh {
+        self.mesh
+    }
+
     /// Least and greatest corner of the scene in the units of the rays.
     pub(super) fn bounds(&self) -> (DVec3, DVec3) {
         self.panels.positions.iter().fold(
@@ -155,16 +178,51 @@ impl<'a> View<'a> {
     ) -> Option<Picture> {
         let size = camera.size();
         let width = size[0] as usize;
+        let gathering = (config.gather > 0).then(|| Gathering::new(self, camera, config));
         let mut pixels = vec![Pixel::BACKGROUND; width * size[1] as usize];
         pixels.par_chunks_mut(width).enumerate().for_each_init(
             RowBuffers::default,
             |buffers, (y, row)| {
-                if !interrupted.load(Ordering::Relaxed) {
-                    self.render_row(camera, config, y, row, buffers);
+                if interrupted.load(Ordering::Relaxed) {
+                    return;
+                }
+                self.identify_row(camera, y, row, buffers);
+                match &gathering {
+                    Some(gathering) => gathering.render_row(y, row, interrupted),
+                    None => self.render_row(camera, config, y, row, buffers),
                 }
             },
         );
         (!interrupted.load(Ordering::Relaxed)).then_some(Picture { size, pixels })
+    }
+
+    /// The ray through a point of the picture; its `t` is the depth in the units of the rays.
+    pub(super) fn ray(&self, camera: &PinHole, x: f64, y: f64) -> Ray {
+        Ray::half_line(
+            self.frame.point(camera.eye()),
+            camera.direction(DVec2::new(x, y)).as_vec3(),
+            0.0,
+        )
+    }
+
+    /// The middle of each pixel, for the layers that must not be averaged.
+    fn identify_row(
+        &self,
+        camera: &PinHole,
+        y: usize,
+        row: &mut [Pixel],
+        buffers: &mut RowBuffers,
+    ) {
+        buffers.rays.clear();
+        buffers
+            .rays
+            .extend((0..row.len()).map(|x| self.ray(camera, x as f64 + 0.5, y as f64 + 0.5)));
+        self.embree.closest_hits(&buffers.rays, &mut buffers.hits);
+        for (pixel, hit) in row.iter_mut().zip(&buffers.hits) {
+            if let Some(hit) = hit {
+                self.identify(hit, camera, pixel);
+            }
+        }
     }
 
     fn render_row(
@@ -177,24 +235,6 @@ impl<'a> View<'a> {
     ) {
         let side = config.samples_a_side.clamp(1, 16);
         let a_pixel = (side * side) as usize;
-        let ray = |x: f64, y: f64| {
-            Ray::half_line(
-                self.frame.point(camera.eye()),
-                camera.direction(DVec2::new(x, y)).as_vec3(),
-                0.0,
-            )
-        };
-        // The middle of each pixel first, for the layers that must not be averaged.
-        buffers.rays.clear();
-        buffers
-            .rays
-            .extend((0..row.len()).map(|x| ray(x as f64 + 0.5, y as f64 + 0.5)));
-        self.embree.closest_hits(&buffers.rays, &mut buffers.hits);
-        for (pixel, hit) in row.iter_mut().zip(&buffers.hits) {
-            if let Some(hit) = hit {
-                self.identify(hit, camera, pixel);
-            }
-        }
         buffers.rays.clear();
         for x in 0..row.len() {
             for k in 0..side * side {
@@ -202,7 +242,8 @@ impl<'a> View<'a> {
                 // share a row or column (n-rooks).
                 let (i, j) = (f64::from(k % side), f64::from(k / side));
                 let n = f64::from(side);
-                buffers.rays.push(ray(
+                buffers.rays.push(self.ray(
+                    camera,
                     x as f64 + (i + (j + 0.5) / n) / n,
                     y as f64 + (j + (i + 0.5) / n) / n,
                 ));
@@ -214,7 +255,11 @@ impl<'a> View<'a> {
             let mut covered = 0u32;
             for hit in hits.iter().flatten() {
                 covered += 1;
-                let seen = self.shade(hit, camera, config.shading);
+                // A side without light is black.
+                let Some(place) = self.landing(hit, camera.eye()) else {
+                    continue;
+                };
+                let seen = self.light_at(&place, config.shading);
                 for c in 0..3 {
                     pixel.radiance[c] += seen.radiosity[c] * share / PI;
                     pixel.irradiance[c] += seen.irradiance[c] * share;
@@ -262,16 +307,10 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The light that leaves a hit towards the eye; black where the side has none.
-    fn shade(&self, hit: &Hit, camera: &PinHole, shading: Shading) -> Seen {
-        const DARK: Seen = Seen {
-            radiosity: [0.0; 3],
-            irradiance: [0.0; 3],
-        };
+    /// Where a ray from `eye` (in the file's units) has landed; `None` on a side without light.
+    pub(super) fn landing(&self, hit: &Hit, eye: DVec3) -> Option<Landing> {
         let polygon = &self.polygons[hit.polygon.index()];
-        let Some(p) = self.panel_seen(hit, camera.eye()) else {
-            return DARK;
-        };
+        let p = self.panel_seen(hit, eye)?;
         let panel = &self.panels.panels[p];
         // Rounding may leave a hit a little outside of its triangle.
         let v = f64::from(hit.u).clamp(0.0, 1.0);
@@ -282,16 +321,25 @@ impl<'a> View<'a> {
             of_polygon[place.expect("both sides of a polygon have the same corners")]
         });
         let (leaf, local) = self.panels.leaf_at(panel, weights);
-        let face = &self.mesh.faces[leaf];
+        Some(Landing {
+            panel: p,
+            leaf,
+            weights,
+            local: local.map(|x| x.clamp(0.0, 1.0)),
+        })
+    }
+
+    /// The light of a place, which leaves it alike in all directions.
+    pub(super) fn light_at(&self, place: &Landing, shading: Shading) -> Seen {
+        let face = &self.mesh.faces[place.leaf];
         if shading == Shading::Flat {
             return Seen {
                 radiosity: face.radiosity,
                 irradiance: face.irradiance,
             };
         }
-        let local = local.map(|x| x.clamp(0.0, 1.0));
-        let irradiance = self.smoothing.irradiance(leaf, local).map(|x| x as f32);
-        let reflectance = self.reflectance[p];
+        let irradiance = (self.smoothing.irradiance(place.leaf, place.local)).map(|x| x as f32);
+        let reflectance = self.reflectance[place.panel];
         Seen {
             radiosity: std::array::from_fn(|c| {
                 let more = irradiance[c] - face.irradiance[c];

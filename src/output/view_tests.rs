@@ -143,6 +143,7 @@ fn flat_shading_shows_the_patch_under_each_pixel() {
     let config = ViewConfig {
         shading: Shading::Flat,
         samples_a_side: 1,
+        gather: 0,
     };
     let pin_hole = camera.pin_hole().unwrap();
     let picture = view.render(&pin_hole, &config, &GO).unwrap();

@@ -185,9 +185,7 @@ impl<const C: usize> Task<'_, '_, C> {
         let sampled = self
             .pass
             .sample(self.pass.context.embree, source, receiver, rays, round);
-        let statistics = &mut self.outcome.statistics;
-        statistics.rays += u64::from(sampled.rays);
-        statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        self.count_rays(receiver, &sampled);
         sampled
     }
 

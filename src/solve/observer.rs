@@ -1,5 +1,6 @@
 //! How a long solve is watched and stopped.
 
+use super::element_name::ElementName;
 use super::snapshot::Snapshot;
 use super::statistics::PassStatistics;
 
@@ -13,6 +14,12 @@ pub trait Observer: Sync {
     fn pass_done(&self, _statistics: &PassStatistics, _unshot_fraction: f64) {}
     /// A pass has ended, and `take` makes the state from which the solve can be [resumed](super::resume).
     fn state_reached(&self, _take: &dyn Fn() -> Snapshot) {}
+    /// Whether [`Self::rays_cast`] wants to be told: asked once a task.
+    fn counts_rays(&self) -> bool {
+        false
+    }
+    /// Rays were cast through Embree to find what reaches `receiver`, evidence probes included.
+    fn rays_cast(&self, _receiver: ElementName, _rays: u32) {}
     /// True when the solve shall stop; asked often.
     fn interrupted(&self) -> bool {
         false

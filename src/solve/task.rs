@@ -12,7 +12,7 @@ use super::radiosity::Gatherer;
 use super::statistics::PassStatistics;
 use crate::cluster::NodeKind;
 use crate::math::NodeId;
-use crate::visibility::{SampleCount, Verdict};
+use crate::visibility::{SampleCount, SampledVisibility, Verdict};
 use glam::Vec3;
 
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
@@ -48,6 +48,7 @@ pub(super) struct Task<'a, 'g, const C: usize> {
     pub(super) segments: Vec<(Vec3, Vec3, bool)>,
     pub(super) drop_budget: f64,
     pub(super) visits: u32,
+    counts_rays: bool,
 }
 
 impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
@@ -69,6 +70,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             segments: Vec::new(),
             drop_budget: pass.drop_budget * share,
             visits: 0,
+            counts_rays: pass.context.observer.counts_rays(),
         }
     }
 
@@ -186,13 +188,22 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             SampleCount::PROBE,
             0,
         );
-        self.outcome.statistics.rays += u64::from(sampled.rays);
-        self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        self.count_rays(receiver, &sampled);
         match sampled.rays {
             0 => Evidence::Dark,
             n if sampled.rays_blocked == n => Evidence::Blocked,
             _ if sampled.rays_blocked == 0 => Evidence::Clear,
             _ => Evidence::Mixed,
+        }
+    }
+
+    /// Counts rays that went through Embree.
+    pub(super) fn count_rays(&mut self, receiver: &Element, sampled: &SampledVisibility) {
+        self.outcome.statistics.rays += u64::from(sampled.rays);
+        self.outcome.statistics.rays_blocked += u64::from(sampled.rays_blocked);
+        if self.counts_rays && sampled.rays > 0 {
+            let observer = self.pass.context.observer;
+            observer.rays_cast(receiver.name(), sampled.rays);
         }
     }
 

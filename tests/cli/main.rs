@@ -22,3 +22,4 @@ mod results;
 mod resumption;
 mod sweeps;
 mod unwritable;
+mod views;

@@ -233,6 +233,9 @@ mod tests {
         assert!(page.contains("+2.50 %") && page.contains("1 faces were dropped"));
         // Four of ten exchanges needed no ray.
         assert!(page.contains("proved visible, no ray <b>4.00 exchanges</b> (40.0 %)"));
+        // Eight rays each of 4 exchanges, of 1 claim at least, and 80 that were cast.
+        assert!(page.contains("saved by full visibility <b>32.0 rays</b> (26.7 %)"));
+        assert!(page.contains("at the very least <b>8.00 rays</b> (6.7 %)"));
         assert!(page.contains("data:image/svg+xml;base64,PHN2Zy8+"));
         assert_eq!(page.matches("<section>").count(), 2);
         assert_eq!(

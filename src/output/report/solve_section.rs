@@ -195,16 +195,44 @@ fn guarantees(stats: &Stats) -> String {
         value: value as f64,
     });
     let mut out = stacked_bar("What the exchanges needed", "exchanges", &parts);
+    out.push_str(&rays_saved(stats));
     let _ = writeln!(
         out,
-        "<p>Full visibility saved about <b>{} rays</b> ({} an exchange); {} pairs were proved occluded and ended with all that lies below them; \
-         {} rays went through Embree, {} were tested natively; {} shafts were asked.</p>",
-        count(visible.saturating_mul(stats.rays_per_exchange)),
-        stats.rays_per_exchange,
-        count(sum(|p| p.occluded_claims)),
-        count(sum(|p| p.rays)),
-        count(sum(|p| p.native_rays)),
+        "<p>Asked were {} shafts: {} pairs were proved fully visible, {} fully occluded.</p>",
         count(sum(|p| p.shafts)),
+        count(sum(|p| p.visible_claims)),
+        count(sum(|p| p.occluded_claims)),
+    );
+    out
+}
+
+/// What each guarantee spared Embree, as far as the counts of one solve tell, and how they tell it.
+fn rays_saved(stats: &Stats) -> String {
+    let sum = |of: fn(&Pass) -> u64| stats.passes.iter().map(of).sum::<u64>();
+    let an_exchange = stats.rays_per_exchange;
+    let visible = sum(|p| p.exchanges_visible).saturating_mul(an_exchange);
+    let occluded = sum(|p| p.occluded_claims).saturating_mul(an_exchange);
+    let (native, cast) = (sum(|p| p.native_rays), sum(|p| p.rays));
+    let parts = [
+        ("saved by full visibility", visible),
+        ("saved by full occlusion, at the very least", occluded),
+        ("tested natively against blockers", native),
+        ("cast through Embree", cast),
+    ]
+    .map(|(label, value)| Part {
+        label,
+        value: value as f64,
+    });
+    let mut out = stacked_bar("Rays saved by each guarantee", "rays", &parts);
+    let _ = writeln!(
+        out,
+        "<p>Full visibility: {} exchanges were proved clear and cast none of their {an_exchange} rays. Full occlusion: {} pairs were \
+         proved blocked and ended there; what lies below them was never visited nor counted, so each stands for one exchange only, \
+         and what was saved is more (<code>certilux compare</code> measures it, against a solve without proofs). Blockers: {} samples \
+         were tested against the few polygons left in their shafts. The rays cast include probes for evidence.</p>",
+        count(sum(|p| p.exchanges_visible)),
+        count(sum(|p| p.occluded_claims)),
+        count(native),
     );
     out
 }
