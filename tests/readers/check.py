@@ -79,9 +79,10 @@ def check(folder):
     assert issues["numErrors"] == 0 and issues["numWarnings"] == 0, issues
     assert report["info"]["totalTriangleCount"] == leaves, report["info"]
     scene = trimesh.load(folder / "solution.glb", process=False)
-    mesh = scene.to_mesh() if hasattr(scene, "to_mesh") else scene.dump(concatenate=True)
+    [mesh] = scene.geometry.values()
+    transform, _ = scene.graph.get("solution")
     assert len(mesh.faces) == leaves
-    corners, expected = mesh.vertices[mesh.faces], points[triangles]
+    corners, expected = (mesh.vertices + transform[:3, 3])[mesh.faces], points[triangles]
     size = numpy.ptp(points, axis=0).max()
     assert numpy.abs(corners - expected).max() < 1e-6 * size
     # With a material trimesh takes colours for an attribute.
