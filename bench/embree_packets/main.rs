@@ -61,7 +61,9 @@ fn main() {
             .into_iter()
             .find(|(known, _)| known == name)
             .expect("an instruction set: best, sse4.2, avx2 or avx512");
-        run(name, &DeviceConfig { threads: None, isa });
+        let mut config = DeviceConfig::default();
+        config.isa = isa;
+        run(name, &config);
     }
 }
 

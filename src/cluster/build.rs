@@ -15,6 +15,7 @@ use crate::scene::{Facet, Scene};
 
 /// How to cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ClusterConfig {
     /// Width of the cracks that count as closed, over the diagonal of the scene.
     pub weld: f64,

@@ -9,6 +9,7 @@ const INSTRUCTION_SETS: [&str; 5] = ["sse2", "sse4.2", "avx", "avx2", "avx512"];
 
 /// How to open a device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DeviceConfig {
     /// Threads that build a scene; `None` is one. Queries run on the caller's threads whatever
     /// stands here. Embree's high-quality build is not deterministic beyond one thread.

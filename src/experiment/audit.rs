@@ -21,6 +21,7 @@ use serde::Serialize;
 
 /// What to audit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct AuditConfig {
     /// Claims of the solve that are kept: a uniform sample, or all with `usize::MAX`.
     pub claims: usize,

@@ -41,6 +41,7 @@ mod png_file;
 mod ray_density;
 mod reference_comparison;
 mod reference_file;
+mod rendering;
 mod report;
 mod smoothing;
 mod solved_mesh;

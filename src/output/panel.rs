@@ -21,6 +21,8 @@ pub(crate) struct Panel {
     pub first_leaf: u32,
     /// Number of its patches.
     pub leaf_count: u32,
+    /// Levels of splits down to the deepest of them.
+    pub depth: u32,
     /// The statement that it came from.
     pub source_face: u32,
     /// Which side.
@@ -118,6 +120,7 @@ impl Panels {
                 corners: joined.corners,
                 first_leaf: joined.first_leaf,
                 leaf_count: (end - first) as u32,
+                depth: joined.depth,
                 source_face: mesh.faces[first].source_face,
                 side: mesh.faces[first].side,
             });
@@ -140,14 +143,15 @@ impl Panels {
     pub fn leaf_at(&self, panel: &Panel, weights: [f64; 3]) -> (usize, [f64; 3]) {
         let range = self.leaf_range(panel);
         let leaves = &self.leaves[range.clone()];
-        // The walk to the point, as deep as any path can go; leaves ascend along it.
+        // The walk to the point, as deep as the deepest leaf; leaves ascend along it.
         let mut place = 0u64;
         let mut local = weights;
-        for _ in 0..PatchPath::MAX_LEVEL {
+        for _ in 0..panel.depth {
             let which = child_at(local);
             place = (place << 2) | u64::from(which);
             local = child_weights(local, which);
         }
+        place <<= 2 * (PatchPath::MAX_LEVEL - panel.depth);
         let leaf = leaves.partition_point(|l| first_place(l.path) <= place) - 1;
         let local = leaves[leaf].path.steps().fold(weights, child_weights);
         (range.start + leaf, local)

@@ -1,17 +1,13 @@
-//! Renders a solved mesh: primary rays through Embree, patches looked up under the hits.
+//! A solved mesh made ready for pictures: where a ray lands, and what light is there.
 
 use super::camera::PinHole;
-use super::gathering::Gathering;
 use super::panel::Panels;
 use super::smoothing::{Smoothing, reflectance};
-use super::{Picture, Pixel, SolvedMesh};
+use super::{Pixel, SolvedMesh};
 use crate::embree::{CommittedScene, Device, EmbreeError, Hit, Ray};
 use crate::scene::Side;
 use glam::{DVec2, DVec3, Vec3};
-use rayon::prelude::*;
 use std::collections::HashMap;
-use std::f32::consts::PI;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How patches are shaded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -168,34 +164,6 @@ impl<'a> View<'a> {
         )
     }
 
-    /// Takes a picture; `None` when `interrupted` was raised before it was done. The picture is the
-    /// same at any number of threads.
-    pub fn render(
-        &self,
-        camera: &PinHole,
-        config: &ViewConfig,
-        interrupted: &AtomicBool,
-    ) -> Option<Picture> {
-        let size = camera.size();
-        let width = size[0] as usize;
-        let gathering = (config.gather > 0).then(|| Gathering::new(self, camera, config));
-        let mut pixels = vec![Pixel::BACKGROUND; width * size[1] as usize];
-        pixels.par_chunks_mut(width).enumerate().for_each_init(
-            RowBuffers::default,
-            |buffers, (y, row)| {
-                if interrupted.load(Ordering::Relaxed) {
-                    return;
-                }
-                self.identify_row(camera, y, row, buffers);
-                match &gathering {
-                    Some(gathering) => gathering.render_row(y, row, interrupted),
-                    None => self.render_row(camera, config, y, row, buffers),
-                }
-            },
-        );
-        (!interrupted.load(Ordering::Relaxed)).then_some(Picture { size, pixels })
-    }
-
     /// The ray through a point of the picture; its `t` is the depth in the units of the rays.
     pub(super) fn ray(&self, camera: &PinHole, x: f64, y: f64) -> Ray {
         Ray::half_line(
@@ -203,70 +171,6 @@ impl<'a> View<'a> {
             camera.direction(DVec2::new(x, y)).as_vec3(),
             0.0,
         )
-    }
-
-    /// The middle of each pixel, for the layers that must not be averaged.
-    fn identify_row(
-        &self,
-        camera: &PinHole,
-        y: usize,
-        row: &mut [Pixel],
-        buffers: &mut RowBuffers,
-    ) {
-        buffers.rays.clear();
-        buffers
-            .rays
-            .extend((0..row.len()).map(|x| self.ray(camera, x as f64 + 0.5, y as f64 + 0.5)));
-        self.embree.closest_hits(&buffers.rays, &mut buffers.hits);
-        for (pixel, hit) in row.iter_mut().zip(&buffers.hits) {
-            if let Some(hit) = hit {
-                self.identify(hit, camera, pixel);
-            }
-        }
-    }
-
-    fn render_row(
-        &self,
-        camera: &PinHole,
-        config: &ViewConfig,
-        y: usize,
-        row: &mut [Pixel],
-        buffers: &mut RowBuffers,
-    ) {
-        let side = config.samples_a_side.clamp(1, 16);
-        let a_pixel = (side * side) as usize;
-        buffers.rays.clear();
-        for x in 0..row.len() {
-            for k in 0..side * side {
-                // A grid turned by the lattice's usual slant, so that no two samples of a pixel
-                // share a row or column (n-rooks).
-                let (i, j) = (f64::from(k % side), f64::from(k / side));
-                let n = f64::from(side);
-                buffers.rays.push(self.ray(
-                    camera,
-                    x as f64 + (i + (j + 0.5) / n) / n,
-                    y as f64 + (j + (i + 0.5) / n) / n,
-                ));
-            }
-        }
-        self.embree.closest_hits(&buffers.rays, &mut buffers.hits);
-        let share = 1.0 / a_pixel as f32;
-        for (pixel, hits) in row.iter_mut().zip(buffers.hits.chunks(a_pixel)) {
-            let mut covered = 0u32;
-            for hit in hits.iter().flatten() {
-                covered += 1;
-                // A side without light is black.
-                let Some(place) = self.landing(hit, camera.eye()) else {
-                    continue;
-                };
-                let seen = self.light_at(&place, config.shading);
-                for c in 0..3 {
-                    pixel.radiance[c] += seen.radiosity[c] * share / PI;
-                    pixel.irradiance[c] += seen.irradiance[c] * share;
-                }
-            }
-            pixel.alpha = covered as f32 * share;
-        }
     }
 
     /// Which side of its polygon a hit sees: decided by the eye's place and not by the ray's
@@ -292,7 +196,7 @@ impl<'a> View<'a> {
     }
 
     /// Fills in the layers that hold for the pixel's middle.
-    fn identify(&self, hit: &Hit, camera: &PinHole, pixel: &mut Pixel) {
+    pub(super) fn identify(&self, hit: &Hit, camera: &PinHole, pixel: &mut Pixel) {
         let polygon = &self.polygons[hit.polygon.index()];
         let [a, b, c] = polygon.corners.map(|v| self.panels.positions[v as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
@@ -348,13 +252,6 @@ impl<'a> View<'a> {
             irradiance,
         }
     }
-}
-
-/// Memory that the rows of one thread share.
-#[derive(Default)]
-struct RowBuffers {
-    rays: Vec<Ray>,
-    hits: Vec<Option<Hit>>,
 }
 
 /// Joins the two sides of each triangle; corners run as seen from the front. Sheets laid back to

@@ -2,6 +2,7 @@
 
 /// Settings of a measurement.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReferenceConfig {
     /// Standard error asked of every face and channel, relative to the greater of its reflected radiosity
     /// and [`Self::DARK`] of the area mean. Positive.

@@ -188,10 +188,8 @@ fn rounding_hardly_changes_the_tree() {
 #[test]
 fn volumes_take_over_beyond_the_widest_cluster() {
     let scene = cuboid(Vec3::splat(-0.4), Vec3::splat(0.4)).scene();
-    let config = ClusterConfig {
-        widest: 0.5,
-        ..ClusterConfig::default()
-    };
+    let mut config = ClusterConfig::default();
+    config.widest = 0.5;
     let hierarchy = build_hierarchy(&scene, &fronts(&scene), &config);
     assert_eq!(hierarchy.validate(&scene), Ok(()));
     let count = |kind| hierarchy.nodes.iter().filter(|n| n.kind == kind).count();

@@ -145,7 +145,7 @@ pub fn hold_within(
     }
     config.technique = Technique::Occlusion;
     config.stride = PAPER;
-    let report = audit(prepared, &config, &AUDIT, &Silent).expect("audits");
+    let report = audit(prepared, &config, &short_audit(), &Silent).expect("audits");
     assert!(!report.is_refuted(), "{what}: {:?}", report.flaws.first());
     claims.audited += report.claims_audited;
     println!("{what}: {} faces, {claims:?}", normal.len());
@@ -153,11 +153,13 @@ pub fn hold_within(
 }
 
 /// Enough to find what is wrong on a thousandth of a claim's segments, in tenths of a second.
-const AUDIT: AuditConfig = AuditConfig {
-    claims: 400,
-    rays_per_claim: 32,
-    brute_force: 20,
-};
+fn short_audit() -> AuditConfig {
+    let mut config = AuditConfig::default();
+    config.claims = 400;
+    config.rays_per_claim = 32;
+    config.brute_force = 20;
+    config
+}
 
 /// The paper's stride, at which most is claimed.
 const PAPER: Stride = Stride::Every(SolveConfig::PAPER_STRIDE);

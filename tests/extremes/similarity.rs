@@ -100,10 +100,8 @@ fn truth(prepared: &PreparedScene, error: f64) -> Vec<TrueFace> {
         &DeviceConfig::default(),
     )
     .expect("Embree opens");
-    let config = ReferenceConfig {
-        error,
-        ..ReferenceConfig::default()
-    };
+    let mut config = ReferenceConfig::default();
+    config.error = error;
     let reference = measure(&traced, &config, &SilentReference).expect("measures");
     assert!(reference.reached);
     let mean = |light: [f64; 3]| light.iter().sum::<f64>() / 3.0;

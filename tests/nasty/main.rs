@@ -38,11 +38,10 @@ fn audit_of(seed: u64) -> AuditReport {
     let prepared = PreparedScene::new(scene, SidesMode::Auto, seed, &DeviceConfig::default())
         .expect("Embree opens")
         .with_guarantees(solve.technique, &occluders);
-    let config = AuditConfig {
-        claims: 4_000,
-        rays_per_claim: 64,
-        brute_force: 40,
-    };
+    let mut config = AuditConfig::default();
+    config.claims = 4_000;
+    config.rays_per_claim = 64;
+    config.brute_force = 40;
     audit(&prepared, &solve, &config, &Silent).expect("audits")
 }
 

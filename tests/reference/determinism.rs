@@ -31,22 +31,26 @@ fn bits(faces: &[FaceRadiosity]) -> Vec<[u64; 6]> {
         .collect()
 }
 
-const COARSE: ReferenceConfig = ReferenceConfig {
-    error: 0.1,
-    max_seconds: None,
-    faces: None,
-    seed: 1,
-};
+fn coarse() -> ReferenceConfig {
+    with(|_| {})
+}
+
+fn with(change: impl FnOnce(&mut ReferenceConfig)) -> ReferenceConfig {
+    let mut config = ReferenceConfig::default();
+    config.error = 0.1;
+    change(&mut config);
+    config
+}
 
 #[test]
 fn threads_do_not_matter_and_seeds_do() {
     let scene = cornell();
-    let one = run(&scene, 1, &COARSE);
-    let three = run(&scene, 3, &COARSE);
+    let one = run(&scene, 1, &coarse());
+    let three = run(&scene, 3, &coarse());
     assert!(one.rounds > 2, "adaptive rounds are part of what is tested");
     assert_eq!(bits(&one.faces), bits(&three.faces));
     assert_eq!((one.rays, one.rounds), (three.rays, three.rounds));
-    let other = run(&scene, 1, &ReferenceConfig { seed: 2, ..COARSE });
+    let other = run(&scene, 1, &with(|c| c.seed = 2));
     assert_ne!(bits(&one.faces), bits(&other.faces));
 }
 
@@ -54,10 +58,7 @@ fn threads_do_not_matter_and_seeds_do() {
 fn a_sample_of_faces_is_a_part_of_the_whole() {
     let scene = cornell();
     let sample = |count| {
-        let config = ReferenceConfig {
-            faces: Some(count),
-            ..COARSE
-        };
+        let config = with(|c| c.faces = Some(count));
         run(&scene, 2, &config).faces
     };
     let places = |faces: &[FaceRadiosity]| -> Vec<u32> {
@@ -72,18 +73,17 @@ fn a_sample_of_faces_is_a_part_of_the_whole() {
     assert!(five.iter().all(|f| nine.contains(f)));
     assert!(five.windows(2).all(|w| w[0] < w[1]));
     assert_ne!(five, [0, 1, 2, 3, 4]);
-    let all = run(&scene, 2, &COARSE).faces;
+    let all = run(&scene, 2, &coarse()).faces;
     assert_eq!(places(&sample(10_000)), places(&all));
 }
 
 #[test]
 fn time_ends_it_after_a_round() {
     let scene = cornell();
-    let config = ReferenceConfig {
-        error: 1e-6,
-        max_seconds: Some(1e-3),
-        ..COARSE
-    };
+    let config = with(|c| {
+        c.error = 1e-6;
+        c.max_seconds = Some(1e-3);
+    });
     let hurried = run(&scene, 2, &config);
     assert!(!hurried.reached);
     assert_eq!(hurried.rounds, 1);
@@ -99,7 +99,7 @@ fn an_interruption_leaves_no_result() {
             true
         }
     }
-    let outcome = measure(&cornell(), &COARSE, &Impatient);
+    let outcome = measure(&cornell(), &coarse(), &Impatient);
     assert_eq!(outcome.err(), Some(ReferenceError::Interrupted));
 }
 
@@ -107,41 +107,11 @@ fn an_interruption_leaves_no_result() {
 fn settings_out_of_range_are_named() {
     let scene = cornell();
     for (config, flag) in [
-        (
-            ReferenceConfig {
-                error: 0.0,
-                ..COARSE
-            },
-            "--error",
-        ),
-        (
-            ReferenceConfig {
-                error: -1.0,
-                ..COARSE
-            },
-            "--error",
-        ),
-        (
-            ReferenceConfig {
-                error: f64::NAN,
-                ..COARSE
-            },
-            "--error",
-        ),
-        (
-            ReferenceConfig {
-                max_seconds: Some(0.0),
-                ..COARSE
-            },
-            "--max-seconds",
-        ),
-        (
-            ReferenceConfig {
-                faces: Some(0),
-                ..COARSE
-            },
-            "--faces",
-        ),
+        (with(|c| c.error = 0.0), "--error"),
+        (with(|c| c.error = -1.0), "--error"),
+        (with(|c| c.error = f64::NAN), "--error"),
+        (with(|c| c.max_seconds = Some(0.0)), "--max-seconds"),
+        (with(|c| c.faces = Some(0)), "--faces"),
     ] {
         let error = measure(&scene, &config, &SilentReference).unwrap_err();
         assert!(error.to_string().starts_with(flag), "{error}");

@@ -46,10 +46,8 @@ impl Measured {
 
     pub fn from_text(obj: &str, library: &str, mtl: &str, error: f64) -> Self {
         let traced = traced(obj, library, mtl, SidesMode::Auto);
-        let config = ReferenceConfig {
-            error,
-            ..ReferenceConfig::default()
-        };
+        let mut config = ReferenceConfig::default();
+        config.error = error;
         let reference = measure(&traced, &config, &SilentReference).expect("measures");
         assert!(reference.reached && !reference.faces.is_empty());
         let scene = &traced.scene;

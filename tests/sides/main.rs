@@ -66,10 +66,8 @@ impl Mesh {
 }
 
 fn committed(scene: &Scene) -> CommittedScene {
-    let config = DeviceConfig {
-        isa: Some("avx2"),
-        ..DeviceConfig::default()
-    };
+    let mut config = DeviceConfig::default();
+    config.isa = Some("avx2");
     let triangles: Vec<_> = scene.polygons.iter().map(|p| p.vertices).collect();
     CommittedScene::build(&Device::new(&config).unwrap(), &scene.positions, &triangles).unwrap()
 }

@@ -1,6 +1,6 @@
 //! Bars in SVG, drawn by hand: they need no script and print well.
 
-use super::html::{escaped, quantity};
+use super::html::{count, escaped, quantity};
 use std::fmt::Write;
 
 /// A part of a stacked bar.
@@ -19,6 +19,9 @@ const COLOURS: [&str; 7] = [
 /// Width of a bar in its own units.
 const WIDTH: f64 = 600.0;
 
+/// Units of which there are whole numbers only.
+const COUNTED: [&str; 2] = ["exchanges", "rays"];
+
 /// A bar of parts that add up to a whole, with a legend that has their values (in `unit`) and shares.
 pub fn stacked_bar(title: &str, unit: &str, parts: &[Part<'_>]) -> String {
     let total: f64 = parts.iter().map(|p| p.value.max(0.0)).sum();
@@ -35,6 +38,10 @@ pub fn stacked_bar(title: &str, unit: &str, parts: &[Part<'_>]) -> String {
         "<svg viewBox=\"0 0 {WIDTH} 28\" role=\"img\" aria-label=\"{}\" preserveAspectRatio=\"none\">",
         escaped(title)
     );
+    let amount = |value: f64| match COUNTED.contains(&unit) {
+        true => count(value.max(0.0) as u64),
+        false => quantity(value),
+    };
     let mut at = 0.0;
     for (part, colour) in parts.iter().zip(COLOURS.iter().cycle()) {
         let width = WIDTH * part.value.max(0.0) / total;
@@ -42,7 +49,7 @@ pub fn stacked_bar(title: &str, unit: &str, parts: &[Part<'_>]) -> String {
             out,
             "<rect x=\"{at:.2}\" y=\"0\" width=\"{width:.2}\" height=\"28\" fill=\"{colour}\"><title>{}: {} {unit}</title></rect>",
             escaped(part.label),
-            quantity(part.value)
+            amount(part.value)
         );
         at += width;
     }
@@ -52,7 +59,7 @@ pub fn stacked_bar(title: &str, unit: &str, parts: &[Part<'_>]) -> String {
             out,
             "<li><span style=\"background:{colour}\"></span>{} <b>{} {unit}</b> ({:.1} %)</li>",
             escaped(part.label),
-            quantity(part.value),
+            amount(part.value),
             100.0 * part.value / total
         );
     }

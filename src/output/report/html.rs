@@ -89,10 +89,15 @@ pub fn table(caption: &str, heads: &[&str], rows: &[Vec<Cell>]) -> String {
         "<div class=\"wide\"><table class=\"sortable\"><caption>{}</caption><thead><tr>",
         escaped(caption)
     );
-    for head in heads {
+    for (column, head) in heads.iter().enumerate() {
+        // Heads stand over what they name: numbers are set to the right.
+        let numbers = rows
+            .iter()
+            .any(|row| row.get(column).is_some_and(|c| c.number.is_some()));
+        let class = if numbers { " class=\"n\"" } else { "" };
         let _ = write!(
             out,
-            "<th scope=\"col\"><button type=\"button\">{}</button></th>",
+            "<th scope=\"col\"{class}><button type=\"button\">{}</button></th>",
             escaped(head)
         );
     }

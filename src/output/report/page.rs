@@ -163,7 +163,7 @@ img.plot{background:#fff}
 table{border-collapse:collapse;margin:1rem 0;font-variant-numeric:tabular-nums}
 caption{text-align:left;font-weight:600;padding:.3rem 0}
 th,td{border-bottom:1px solid var(--line);padding:.25rem .6rem;text-align:left;white-space:nowrap}
-td.n{text-align:right}
+th.n,td.n{text-align:right}
 th button{all:unset;cursor:pointer;font-weight:600}
 th button:focus-visible{outline:2px solid}
 th[aria-sort=ascending] button::after{content:' \\2191'}
@@ -175,7 +175,7 @@ ul.legend{list-style:none;display:flex;flex-wrap:wrap;gap:.2rem 1.2rem;padding:0
 ul.legend span{display:inline-block;width:.8rem;height:.8rem;margin-right:.4rem;-webkit-print-color-adjust:exact;print-color-adjust:exact}
 ul.warnings li{overflow-wrap:anywhere}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;background:var(--faint);padding:.6rem}
-@media print{body{max-width:none}section{break-before:page}section:first-of-type{break-before:auto}.wide{overflow:visible}table{font-size:60%}details{display:block}}
+@media print{body{max-width:none}section{break-before:page}section:first-of-type{break-before:auto}.wide{overflow:visible}table{font-size:7pt;width:100%}th,td{white-space:normal;overflow-wrap:anywhere;padding:.1rem .2rem}img,figure,tr{break-inside:avoid}h2,h3,caption,figcaption{break-after:avoid}}
 ";
 
 /// Sorts a table by the column whose head is pressed; a second press turns the order about.
@@ -195,6 +195,9 @@ document.querySelectorAll('table.sortable').forEach(function(table){
       rows.forEach(function(row){body.appendChild(row)});
     });
   });
+});
+addEventListener('beforeprint',function(){
+  document.querySelectorAll('details').forEach(function(d){d.open=true});
 });
 ";
 
@@ -232,10 +235,10 @@ mod tests {
         assert!(page.contains("&lt;b&gt;.obj") && page.contains("Ks &amp; co"));
         assert!(page.contains("+2.50 %") && page.contains("1 faces were dropped"));
         // Four of ten exchanges needed no ray.
-        assert!(page.contains("proved visible, no ray <b>4.00 exchanges</b> (40.0 %)"));
+        assert!(page.contains("proved visible, no ray <b>4 exchanges</b> (40.0 %)"));
         // Eight rays each of 4 exchanges, of 1 claim at least, and 80 that were cast.
-        assert!(page.contains("saved by full visibility <b>32.0 rays</b> (26.7 %)"));
-        assert!(page.contains("at the very least <b>8.00 rays</b> (6.7 %)"));
+        assert!(page.contains("saved by full visibility <b>32 rays</b> (26.7 %)"));
+        assert!(page.contains("at the very least <b>8 rays</b> (6.7 %)"));
         assert!(page.contains("data:image/svg+xml;base64,PHN2Zy8+"));
         assert_eq!(page.matches("<section>").count(), 2);
         assert_eq!(

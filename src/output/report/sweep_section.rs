@@ -30,15 +30,47 @@ pub fn sweep_section(name: &str, csv: &str, plots: &[Plot]) -> String {
     }
     let mut lines = csv.lines();
     let heads: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let rows: Vec<Vec<Cell>> = lines
-        .map(|line| line.split(',').map(cell).collect())
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    // What is the same in every row is said once: the table must fit a page.
+    let same = |column: usize| match rows.split_first() {
+        Some((first, rest)) if !rest.is_empty() => {
+            let value = first.get(column).copied();
+            value.filter(|_| rest.iter().all(|row| row.get(column).copied() == value))
+        }
+        _ => None,
+    };
+    let (fixed, varied): (Vec<usize>, Vec<usize>) =
+        (0..heads.len()).partition(|&c| same(c).is_some());
+    if !fixed.is_empty() {
+        let items: Vec<String> = (fixed.iter())
+            .map(|&c| {
+                format!(
+                    "{} {}",
+                    escaped(heads[c]),
+                    escaped(same(c).unwrap_or_default())
+                )
+            })
+            .collect();
+        let _ = writeln!(out, "<p>The same in every row: {}.</p>", items.join(", "));
+    }
+    let heads: Vec<&str> = varied.iter().map(|&c| heads[c]).collect();
+    let cells: Vec<Vec<Cell>> = (rows.iter())
+        .map(|row| {
+            varied
+                .iter()
+                .map(|&c| cell(row.get(c).copied().unwrap_or_default()))
+                .collect()
+        })
         .collect();
-    out.push_str(&table("Points of the sweep", &heads, &rows));
+    out.push_str(&table("Points of the sweep", &heads, &cells));
     out.push_str("</section>\n");
     out
 }
 
 fn cell(text: &str) -> Cell {
+    if let Ok(value) = text.parse::<u64>() {
+        return Cell::count(value);
+    }
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Cell::quantity(value),
         _ => Cell::text(text),
