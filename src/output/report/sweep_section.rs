@@ -76,3 +76,24 @@ fn cell(text: &str) -> Cell {
         _ => Cell::text(text),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_the_same_in_every_row_is_said_once() {
+        let csv = "scene,rays,error\n<a>,8,0.5\n<a>,16,0.25\n";
+        let section = sweep_section("s", csv, &[]);
+        assert!(section.contains("The same in every row: scene &lt;a&gt;."));
+        assert_eq!(section.matches("&lt;a&gt;").count(), 1);
+        assert_eq!(
+            section.matches("<th").count() - section.matches("<thead").count(),
+            2
+        );
+        assert!(section.contains("data-n=\"16\">16<") && section.contains("data-n=\"0.25\""));
+        // One row has nothing to be the same as; a row cut short is no reason to fail.
+        let short = sweep_section("s", "scene,rays\na\n", &[]);
+        assert!(short.contains("<td>a</td>") && !short.contains("The same"));
+    }
+}
