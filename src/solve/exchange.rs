@@ -30,12 +30,13 @@ pub(super) enum Next {
 }
 
 impl<const C: usize> Task<'_, '_, C> {
-    /// Transfers energy: radiosity x form factor x visibility. Or says that the pair has to be split after all.
+    /// Transfers energy: radiosity x form factor x visibility, where the oracle expects `carried`. Or says that the pair has to be split after all.
     pub(super) fn exchange(
         &mut self,
         source: &Source,
         receiver: &Receiver,
         greatest: f64,
+        carried: f64,
         known: Known,
     ) -> Next {
         let context = self.pass.context;
@@ -62,7 +63,7 @@ impl<const C: usize> Task<'_, '_, C> {
         if oracle.refines_source(
             &source.element,
             &receiver.element,
-            greatest,
+            carried,
             self.variance(source),
         ) {
             return Next::SplitSource;
@@ -78,7 +79,7 @@ impl<const C: usize> Task<'_, '_, C> {
         let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
             (Technique::Unoccluded, _) => 1.0,
             (_, Verdict::Unknown) => {
-                let Some(sampled) = self.sampled(source, receiver, greatest, known) else {
+                let Some(sampled) = self.sampled(source, receiver, carried, known) else {
                     return Next::SplitShadow(known);
                 };
                 sampled
@@ -90,7 +91,7 @@ impl<const C: usize> Task<'_, '_, C> {
                 match verdict {
                     Verdict::Visible => {
                         self.outcome.statistics.exchanges_visible += 1;
-                        self.visible_share(source, &receiver.element, greatest)
+                        self.visible_share(source, &receiver.element, carried)
                     }
                     // Reached only while claims are being checked.
                     _ => return Next::Done,
@@ -112,11 +113,11 @@ impl<const C: usize> Task<'_, '_, C> {
         &mut self,
         source: &Source,
         receiver: &Receiver,
-        greatest: f64,
+        carried: f64,
         known: Known,
     ) -> Option<f32> {
         let mut sampled = self.sample_where_cheapest(source, &receiver.element, known, 0);
-        if self.refines_if_partial(source, &receiver.element, greatest) {
+        if self.refines_if_partial(&receiver.element, carried) {
             if !(sampled.all_blocked || sampled.all_clear) {
                 return None;
             }
@@ -190,14 +191,13 @@ impl<const C: usize> Task<'_, '_, C> {
     }
 
     /// Whether the pair would be split were its samples partly blocked.
-    fn refines_if_partial(&self, source: &Source, receiver: &Element, greatest: f64) -> bool {
-        let oracle = &self.pass.oracle;
-        oracle.refines_shadow(&source.element, receiver, greatest)
+    fn refines_if_partial(&self, receiver: &Element, carried: f64) -> bool {
+        self.pass.oracle.refines_shadow(receiver, carried)
     }
 
     /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
     /// technique without proofs would find none either.
-    fn visible_share(&self, source: &Source, receiver: &Element, greatest: f64) -> f32 {
+    fn visible_share(&self, source: &Source, receiver: &Element, carried: f64) -> f32 {
         let is_open = |element: &Element| {
             let context = self.pass.context;
             let facet = context.hierarchy.facets[element.first_facet as usize];
@@ -214,7 +214,7 @@ impl<const C: usize> Task<'_, '_, C> {
         let first = self.pass.sample(AllClear, source, receiver, rays, 0);
         if (first.all_clear || first.all_blocked)
             && first.rays > 0
-            && self.refines_if_partial(source, receiver, greatest)
+            && self.refines_if_partial(receiver, carried)
             && self.measures_again(source, receiver)
         {
             let again = self.pass.sample(AllClear, source, receiver, rays, 1);

@@ -14,8 +14,8 @@ pub enum Decision {
     Nothing,
     /// So little that it may be dropped: an upper bound of the power, greatest channel.
     Drop(f64),
-    /// Exchange energy at this level.
-    Exchange,
+    /// Exchange energy at this level: the power that it carries, greatest channel.
+    Exchange(f64),
     /// Replace the source by its children.
     SplitSource,
     /// Replace the receiver by its children.
@@ -103,7 +103,7 @@ impl Oracle {
                 return Decision::Drop(bound);
             }
             if bound < COARSE_SHARE * self.threshold && stand_apart(source, receiver) {
-                return Decision::Exchange;
+                return Decision::Exchange(power * f64::from(oracle_form_factor(source, receiver)));
             }
             return match (source_exchanges, receiver_exchanges) {
                 (true, false) => Decision::SplitReceiver,
@@ -112,10 +112,11 @@ impl Oracle {
                 _ => Decision::SplitReceiver,
             };
         }
-        if power * f64::from(oracle_form_factor(source, receiver)) < self.threshold {
-            return Decision::Exchange;
+        let carried = power * f64::from(oracle_form_factor(source, receiver));
+        if carried < self.threshold {
+            return Decision::Exchange(carried);
         }
-        self.split_larger(source, receiver)
+        self.split_larger(source, receiver, carried)
     }
 
     /// About how many exchanges lie below a pair: each carries up to the threshold, and clusters that are too
@@ -134,39 +135,37 @@ impl Oracle {
     }
 
     /// True when the receiver of a pair whose samples were partly blocked is to be split further than BFA asks: a
-    /// shadow's edge runs through it. The source is not: over it visibility is averaged, by the samples of one exchange
+    /// shadow's edge runs through it, and it `carried` enough. The source is not: over it visibility is averaged, by the samples of one exchange
     /// as well as by an exchange a part.
-    pub fn refines_shadow(&self, source: &Element, receiver: &Element, radiosity: f64) -> bool {
+    pub fn refines_shadow(&self, receiver: &Element, carried: f64) -> bool {
         // A cluster would pass its light on to the facets in shadow too.
         if !receiver.is_triangle() {
             return true;
         }
-        let power = radiosity * f64::from(source.area * oracle_form_factor(source, receiver));
-        power >= PARTIAL_SHARE * self.threshold && self.can_split(receiver)
+        carried >= PARTIAL_SHARE * self.threshold && self.can_split(receiver)
     }
 
     /// True when a source's light is spread so unevenly over it that it may not shoot as one: the form factor is that
     /// of an even light, and the light that hides behind a wall would be missed by both sides of it. `variance` is
-    /// the relative variance of its radiosity.
+    /// the relative variance of its radiosity, `carried` what the exchange would carry.
     pub fn refines_source(
         &self,
         source: &Element,
         receiver: &Element,
-        radiosity: f64,
+        carried: f64,
         variance: f32,
     ) -> bool {
         if variance <= 0.0 {
             return false;
         }
-        let power = radiosity * f64::from(source.area * oracle_form_factor(source, receiver));
         let gap = source.bounds.distance(receiver.bounds);
         let change = (source.radius / gap.max(f32::MIN_POSITIVE)).min(1.0);
-        power * f64::from(variance.sqrt() * change) > UNEVEN_SHARE * self.threshold
+        carried * f64::from(variance.sqrt() * change) > UNEVEN_SHARE * self.threshold
     }
 
-    fn split_larger(&self, source: &Element, receiver: &Element) -> Decision {
+    fn split_larger(&self, source: &Element, receiver: &Element, carried: f64) -> Decision {
         match (self.can_split(source), self.can_split(receiver)) {
-            (false, false) => Decision::Exchange,
+            (false, false) => Decision::Exchange(carried),
             (true, false) => Decision::SplitSource,
             (false, true) => Decision::SplitReceiver,
             (true, true) if source.area >= receiver.area => Decision::SplitSource,

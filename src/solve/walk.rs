@@ -61,14 +61,16 @@ impl<const C: usize> Task<'_, '_, C> {
                     || receiver.element.is_triangle();
                 self.split(source, receiver, greatest, known, by_source);
             }
-            Decision::Exchange => match self.exchange(source, receiver, greatest, known) {
-                Next::Done => {}
-                Next::SplitSource => self.split(source, receiver, greatest, known, true),
-                Next::SplitReceiver => self.split(source, receiver, greatest, known, false),
-                Next::SplitShadow(known) => {
-                    self.split_receiver(source, receiver, greatest, known.below());
+            Decision::Exchange(carried) => {
+                match self.exchange(source, receiver, greatest, carried, known) {
+                    Next::Done => {}
+                    Next::SplitSource => self.split(source, receiver, greatest, known, true),
+                    Next::SplitReceiver => self.split(source, receiver, greatest, known, false),
+                    Next::SplitShadow(known) => {
+                        self.split_receiver(source, receiver, greatest, known.below());
+                    }
                 }
-            },
+            }
             Decision::SplitSource => self.split(source, receiver, greatest, known, true),
             Decision::SplitReceiver => self.split(source, receiver, greatest, known, false),
         }
