@@ -1,14 +1,16 @@
 //! `certilux view`: a picture of a solved folder from any place.
 
 use super::error::CliError;
+use super::logs;
 use super::render::{PictureFormat, write_picture};
 use super::session::Session;
 use super::solve_command::with_threads;
 use super::view_args::{ShowArg, ViewCommand};
 use super::view_exhibit::{Subject, exhibit};
 use crate::embree::{Device, DeviceConfig};
-use crate::output::{Camera, Shading, View, ViewConfig};
+use crate::output::{Camera, Picture, PinHole, Shading, View, ViewConfig};
 use glam::DVec3;
+use indicatif::{ProgressBar, ProgressStyle};
 
 /// Renders DIR/solution.ply.
 pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
@@ -58,9 +60,7 @@ fn take(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
         ..ViewConfig::default()
     };
     let picture = match command.show.has_light() {
-        true => Some(
-            (view.render(&camera, &config, &session.interrupted)).ok_or(CliError::Interrupted)?,
-        ),
+        true => Some(render(session, &view, &camera, &config)?),
         false => None,
     };
     let plain =
@@ -90,6 +90,25 @@ fn take(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
     }
     session.say(format_args!("wrote {}", command.out.display()));
     Ok(())
+}
+
+/// Takes the picture, with a bar on a terminal where it may take long.
+fn render(
+    session: &Session,
+    view: &View,
+    camera: &PinHole,
+    config: &ViewConfig,
+) -> Result<Picture, CliError> {
+    let bar = match config.gather == 0 || session.quiet || logs::as_json() {
+        true => ProgressBar::hidden(),
+        // Hidden by itself where standard error is no terminal.
+        false => ProgressBar::new(u64::from(camera.size()[1])),
+    };
+    let style = ProgressStyle::with_template("gathering [{bar:30}] {percent:>3} % left {eta}");
+    bar.set_style((style.unwrap_or_else(|_| ProgressStyle::default_bar())).progress_chars("=> "));
+    let picture = view.render_watched(camera, config, &session.interrupted, &|| bar.inc(1));
+    bar.finish_and_clear();
+    picture.ok_or(CliError::Interrupted)
 }
 
 /// The automatic camera with whatever was asked for put in its place.

@@ -18,6 +18,17 @@ impl View<'_> {
         config: &ViewConfig,
         interrupted: &AtomicBool,
     ) -> Option<Picture> {
+        self.render_watched(camera, config, interrupted, &|| {})
+    }
+
+    /// As [`Self::render`]; `row_done` is called after each row of pixels, from any thread.
+    pub fn render_watched(
+        &self,
+        camera: &PinHole,
+        config: &ViewConfig,
+        interrupted: &AtomicBool,
+        row_done: &(dyn Fn() + Sync),
+    ) -> Option<Picture> {
         let size = camera.size();
         let width = size[0] as usize;
         let gathering = (config.gather > 0).then(|| Gathering::new(self, camera, config));
@@ -33,6 +44,7 @@ impl View<'_> {
                     Some(gathering) => gathering.render_row(y, row, interrupted),
                     None => self.render_row(camera, config, y, row, buffers),
                 }
+                row_done();
             },
         );
         (!interrupted.load(Ordering::Relaxed)).then_some(Picture { size, pixels })

@@ -74,6 +74,11 @@ pub fn write_sweep_plot(
     let mut svg = String::new();
     plot.draw(&SVGBackend::with_string(&mut svg, SIZE).into_drawing_area())
         .map_err(|e| failed(e.to_string()))?;
+    // Viewers have fonts of their own: first those that are no wider than the one that the drawing was measured with.
+    let svg = svg.replace(
+        "\"sans-serif\"",
+        "\"Noto Sans, Arial, Helvetica, sans-serif\"",
+    );
     write_text(&path.with_extension("svg"), &svg, interrupted)?;
     let (width, height) = SIZE;
     let mut pixels = vec![0; 3 * width as usize * height as usize];

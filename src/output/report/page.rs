@@ -176,7 +176,7 @@ ul.legend{list-style:none;display:flex;flex-wrap:wrap;gap:.2rem 1.2rem;padding:0
 ul.legend span{display:inline-block;width:.8rem;height:.8rem;margin-right:.4rem;-webkit-print-color-adjust:exact;print-color-adjust:exact}
 ul.warnings li{overflow-wrap:anywhere}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;background:var(--faint);padding:.6rem}
-@media print{body{max-width:none}section{break-before:page}section:first-of-type{break-before:auto}.wide{overflow:visible}table{font-size:7pt;width:100%}th,td{white-space:normal;overflow-wrap:anywhere;padding:.1rem .2rem}img,figure,tr{break-inside:avoid}h2,h3,caption,figcaption{break-after:avoid}}
+@media print{body{max-width:none}section{break-before:page}section:first-of-type{break-before:auto}.wide{overflow:visible}table{font-size:6pt;width:100%}th,td{padding:.1rem .12rem}th{font-size:5.5pt}img,figure,tr{break-inside:avoid}h2,h3,caption,figcaption{break-after:avoid}}
 ";
 
 /// Sorts a table by the column whose head is pressed; a second press turns the order about.

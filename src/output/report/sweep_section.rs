@@ -53,7 +53,9 @@ pub fn sweep_section(name: &str, csv: &str, plots: &[Plot]) -> String {
             .collect();
         let _ = writeln!(out, "<p>The same in every row: {}.</p>", items.join(", "));
     }
-    let heads: Vec<&str> = varied.iter().map(|&c| heads[c]).collect();
+    // With spaces, at which heads can wrap.
+    let heads: Vec<String> = varied.iter().map(|&c| heads[c].replace('_', " ")).collect();
+    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     let cells: Vec<Vec<Cell>> = (rows.iter())
         .map(|row| {
             varied
