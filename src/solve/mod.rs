@@ -25,6 +25,8 @@ mod pair;
 mod pass;
 mod pass_context;
 mod patch_split;
+#[cfg(feature = "plant-regressions")]
+mod planted;
 mod prepared;
 mod prover;
 mod push_pull;
@@ -51,6 +53,8 @@ pub use element_name::ElementName;
 pub use error::SolveError;
 pub use guarantees::Guarantees;
 pub use observer::{Observer, Silent};
+#[cfg(feature = "plant-regressions")]
+pub use planted::{Regression, plant};
 pub use prepared::{PreparedScene, StageSeconds};
 pub use snapshot::{Snapshot, SnapshotError};
 pub use solution::{PatchPath, Solution, SolvedPatch, split_triangle};

@@ -43,6 +43,10 @@ impl PassStatistics {
         self.exchanges_blocked += part.exchanges_blocked;
         self.exchanges_sampled_clear += part.exchanges_sampled_clear;
         self.rays += part.rays;
+        #[cfg(feature = "plant-regressions")]
+        {
+            self.rays += super::planted::rays_too_many();
+        }
         self.rays_blocked += part.rays_blocked;
         self.native_rays += part.native_rays;
         self.native_rays_blocked += part.native_rays_blocked;
