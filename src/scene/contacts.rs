@@ -3,8 +3,7 @@
 //! samples ask here instead. And which sides lie wholly on others, that receive their light.
 
 use super::facet::Facet;
-use super::overlap::Overlaps;
-use super::side_graph::{SideIndex, facet_at, side_index};
+use super::side_graph::{SideIndex, side_index};
 use crate::math::Aabb;
 use glam::{DVec3, Vec3};
 
@@ -57,13 +56,10 @@ impl Cover {
 }
 
 impl Contacts {
-    /// The same with the sides that `overlaps` found covered, of so many.
+    /// The same with the sides whose whole area others own, ascending.
     #[must_use]
-    pub(super) fn with_covered(mut self, overlaps: &Overlaps, sides: usize) -> Self {
-        self.covered = (0..sides as SideIndex)
-            .filter(|&side| overlaps.is_covered(facet_at(side)))
-            .collect();
-        self
+    pub(super) fn with_covered(self, covered: Vec<SideIndex>) -> Self {
+        Self { covered, ..self }
     }
 
     /// Whether other sides that face the same way in the same plane own the whole of this one: what arrives here,

@@ -14,6 +14,7 @@ use super::obj_parse::{RawMesh, parse_obj};
 use super::obj_scan::{ObjScan, scan_obj};
 use super::overlap::{Overlaps, find_overlaps};
 use super::polygons::{Pieces, Tally, cut_faces};
+use super::side_graph::{SideIndex, facet_at};
 use super::surface::{Canvas, assign_surfaces};
 use glam::{DVec3, Vec3};
 use std::io;
@@ -162,8 +163,9 @@ fn load(
         warnings,
     };
     let overlaps = find_overlaps(&scene);
-    let sides = 2 * scene.polygons.len();
-    scene.contacts = find_contacts(&scene, &overlaps).with_covered(&overlaps, sides);
+    let sides = 0..2 * scene.polygons.len() as SideIndex;
+    let covered = sides.filter(|&side| overlaps.is_covered(facet_at(side)));
+    scene.contacts = find_contacts(&scene, &overlaps).with_covered(covered.collect());
     warn_of_overlaps(&mut scene, &overlaps);
     Ok(scene)
 }
