@@ -174,7 +174,7 @@ pub struct SolveArgs {
     /// Refine until an exchange carries less than this fraction of the emitted power [default: 1e-5].
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub epsilon: Option<f64>,
-    /// Refine a receiver until an exchange leaves less than this fraction of the mean irradiance unresolved on it.
+    /// Refine a receiver until an exchange leaves less than this fraction of the mean irradiance unresolved on it; four times as much from pass 2 on.
     #[arg(long, value_name = "X", default_value_t = SolveConfig::default().gradient, allow_negative_numbers = true)]
     pub gradient: f64,
     /// Visibility samples of an exchange; multiples of 8 are cheapest [default: 8]. Where the first samples decide that a
