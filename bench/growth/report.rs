@@ -69,7 +69,7 @@ fn header(text: &mut String, first: &str, all: &[Measurement]) {
 
 fn markdown(settings: &RoomSettings, all: &[Measurement]) -> String {
     let mut text = format!(
-        "# Growth: arrays of rooms, `{}`, one pass\n\nOf a single room: epsilon {:e}, smallest patch {:e}, gradient {}; epsilon and smallest patch of an array are these over the number of rooms. Exponents are fitted over polygons, in log-log.\n",
+        "# Growth: arrays of rooms, `{}`, one pass\n\nOf a single room: epsilon {:e}, smallest patch {:e}, gradient {}; epsilon, smallest patch and smallest occluder (1e-4) of an array are these over the number of rooms. Exponents are fitted over polygons, in log-log.\n",
         settings.technique.name(),
         settings.epsilon,
         settings.min_area,

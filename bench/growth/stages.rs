@@ -133,8 +133,11 @@ pub fn measure(polygons: usize, settings: &RoomSettings) -> Result<Measurement, 
         guarantees: None,
         seconds: StageSeconds::default(),
     };
+    // A wall is as large as ever, and an ever smaller part of the array.
+    let mut occluders = OccluderConfig::default();
+    occluders.min_area /= rooms as f64;
     let prepared = stages.run("guarantees", || {
-        Ok(prepared.with_guarantees(settings.technique, &OccluderConfig::default()))
+        Ok(prepared.with_guarantees(settings.technique, &occluders))
     })?;
     let solved = stages.run("pass 1", || {
         solve(&prepared, &config, &Silent).map_err(|e| e.to_string())
