@@ -30,7 +30,8 @@ pub(super) enum Next {
 }
 
 impl<const C: usize> Task<'_, '_, C> {
-    /// Transfers energy: radiosity x form factor x visibility, where the oracle expects `carried`. Or says that the pair has to be split after all.
+    /// Transfers energy: radiosity x form factor x visibility, where the oracle expects `carried`. Or
+    /// says that the pair has to be split after all.
     pub(super) fn exchange(
         &mut self,
         source: &Source,

@@ -59,8 +59,9 @@ const LEAST_RADIUS_IN_TAU: f32 = 16.0;
 
 /// Share of the threshold below which a pair with a near cluster exchanges though its outline matters: what is
 /// misplaced is at most a part of what any exchange may misplace. Without it pairs of near clusters are taken apart
-/// whatever they carry, and a pass costs the same when a thousandth of the power is unshot as when all is. Measured:
-/// two-rooms at epsilon 1e-4 a quarter faster at the same error, a at 1e-3 two fifths.
+/// whatever they carry, and a pass costs the same when a thousandth of the power is unshot as when all is. Measured
+/// (`bench/runs/`, accuracy): two-rooms at epsilon 1e-4 a fifth faster at the same error; a at 1e-3 a third faster, its
+/// error up from 18.6 to 20.2 %. Nothing is lost at the default epsilon.
 const COARSE_SHARE: f64 = 0.25;
 /// Gap, in radii of each cluster, from which it may.
 const COARSE_GAP: f32 = 0.3;
@@ -135,8 +136,8 @@ impl Oracle {
     }
 
     /// True when the receiver of a pair whose samples were partly blocked is to be split further than BFA asks: a
-    /// shadow's edge runs through it, and it `carried` enough. The source is not: over it visibility is averaged, by the samples of one exchange
-    /// as well as by an exchange a part.
+    /// shadow's edge runs through it, and it `carried` enough. The source is not: over it visibility is averaged, by
+    /// the samples of one exchange as well as by an exchange a part.
     pub fn refines_shadow(&self, receiver: &Element, carried: f64) -> bool {
         // A cluster would pass its light on to the facets in shadow too.
         if !receiver.is_triangle() {
