@@ -75,7 +75,6 @@ fn markdown(settings: &RoomSettings, all: &[Measurement]) -> String {
         settings.min_area,
         settings.gradient
     );
-    let names: Vec<&str> = all[0].stages.iter().map(|s| s.name.as_str()).collect();
     let stage = |m: &Measurement, name: &str| -> Stage {
         // Every size runs the same stages.
         m.stages
@@ -84,29 +83,22 @@ fn markdown(settings: &RoomSettings, all: &[Measurement]) -> String {
             .expect("a stage of every size")
             .clone()
     };
-    header(&mut text, "seconds", all);
-    for name in &names {
-        row(
-            &mut text,
-            name,
-            all,
-            |m| stage(m, name).seconds,
-            |x| format!("{x:.3}"),
-        );
-    }
-    row(&mut text, "all", all, Measurement::seconds, |x| {
-        format!("{x:.3}")
-    });
-    header(&mut text, "greatest memory, MiB", all);
-    for name in &names {
-        row(
-            &mut text,
-            name,
-            all,
-            |m| stage(m, name).peak_bytes as f64,
-            |x| format!("{:.1}", x / f64::from(1 << 20)),
-        );
-    }
+    type OfStage = fn(&Stage) -> f64;
+    type Cell = fn(f64) -> String;
+    let seconds: (OfStage, Cell) = (|s| s.seconds, |x| format!("{x:.3}"));
+    let memory: (OfStage, Cell) = (
+        |s| s.peak_bytes as f64,
+        |x| format!("{:.1}", x / f64::from(1 << 20)),
+    );
+    let stages = |text: &mut String, what: &str, (value, cell): (OfStage, Cell)| {
+        header(text, what, all);
+        for Stage { name, .. } in &all[0].stages {
+            row(text, name, all, |m| value(&stage(m, name)), cell);
+        }
+    };
+    stages(&mut text, "seconds", seconds);
+    row(&mut text, "all", all, Measurement::seconds, seconds.1);
+    stages(&mut text, "greatest memory, MiB", memory);
     header(&mut text, "counts", all);
     let count = |x: f64| format!("{x}");
     row(&mut text, "rooms", all, |m| m.rooms as f64, count);

@@ -7,7 +7,6 @@ A sample is a path from a uniformly distributed point of a face: a ray that star
 it, so that the path integrator's emitter sampling and multiple importance sampling work from the face itself. The
 whole wavefront is one kernel."""
 
-import json
 import sys
 from pathlib import Path
 
@@ -49,23 +48,19 @@ def build(scene: obj_scene.Scene) -> mi.Scene:
 
 def main(path: str, wanted: str, samples: str, seed: str, out: str) -> None:
     scene = obj_scene.read(Path(path))
-    normals, areas = scene.normals_and_areas()
-    sides = {tuple(pair) for pair in json.loads(Path(wanted).read_text())}
-    pieces = [(t, s) for t, f in enumerate(scene.face) for s in (0, 1) if (f, s) in sides]
-    piece = np.array([t for t, _ in pieces])
-    sign = np.array([1.0 - 2.0 * s for _, s in pieces])
-    counts = obj_scene.spread_by_area(areas[piece], int(samples))
+    want = obj_scene.read_wanted(scene, Path(wanted), int(samples))
+    piece, counts = want.piece, want.counts
 
     corners = scene.corners()[piece].astype(np.float32)
-    up = (normals[piece] * sign[:, None]).astype(np.float32)
+    up = want.normal.astype(np.float32)
     place = [mi.Point3f(*(mi.Float(corners[:, k, x]) for x in range(3))) for k in range(3)]
     normal = mi.Vector3f(*(mi.Float(up[:, x]) for x in range(3)))
     lift = LIFT * float(np.linalg.norm(np.ptp(scene.vertices, axis=0)))
     world = build(scene)
     integrator = mi.load_dict({"type": "path"})
 
-    sums = [dr.zeros(mi.Float, len(pieces)) for _ in range(3)]
-    owner = np.repeat(np.arange(len(pieces), dtype=np.uint32), counts)
+    sums = [dr.zeros(mi.Float, len(piece)) for _ in range(3)]
+    owner = np.repeat(np.arange(len(piece), dtype=np.uint32), counts)
     parts = np.array_split(owner, -(-len(owner) // WAVEFRONT))
     for number, part in enumerate(parts):
         # Whole vectors are read, past the end of an array that fills its last page: a padded copy has no such end.
@@ -86,11 +81,9 @@ def main(path: str, wanted: str, samples: str, seed: str, out: str) -> None:
         dr.eval(sums)
     radiosity = np.pi * np.stack([np.array(s) for s in sums], axis=1) / counts[:, None]
     # What a front emits by itself is no reflected light.
-    front = sign > 0
+    front = want.sign > 0
     radiosity[front] -= np.pi * scene.emission[scene.material[piece]][front]
-    keys = [(int(scene.face[t]), s) for t, s in pieces]
-    faces = obj_scene.per_face(keys, radiosity.mean(axis=1), areas[piece])
-    Path(out).write_text(json.dumps([[f, s, float(b)] for (f, s), b in faces.items()]))
+    obj_scene.write_faces(Path(out), want, radiosity)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """An OBJ with its MTL as arrays: what the peers are given. Reads what `certilux generate` writes."""
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -70,6 +71,36 @@ def read_materials(path: Path):
             kd = [float(x) for x in rest]
         elif word == "Ke":
             ke = [float(x) for x in rest]
+
+
+@dataclass
+class Wanted:
+    """Triangles and sides that are asked for: `pieces` in all, of which one face may have several."""
+
+    keys: list  # (face, side) of each piece
+    piece: np.ndarray  # (p,) triangle
+    sign: np.ndarray  # (p,) 1 in front, -1 behind
+    normal: np.ndarray  # (p, 3) on the side
+    area: np.ndarray  # (p,)
+    counts: np.ndarray  # (p,) samples
+
+
+def read_wanted(scene: Scene, path: Path, samples: int) -> Wanted:
+    """The [face, side] pairs of a JSON file, with about `samples` samples in all."""
+    normals, areas = scene.normals_and_areas()
+    sides = {tuple(pair) for pair in json.loads(path.read_text())}
+    pieces = [(t, s) for t, f in enumerate(scene.face) for s in (0, 1) if (f, s) in sides]
+    keys = [(int(scene.face[t]), s) for t, s in pieces]
+    piece = np.array([t for t, _ in pieces])
+    sign = np.array([1.0 - 2.0 * s for _, s in pieces])
+    counts = spread_by_area(areas[piece], samples)
+    return Wanted(keys, piece, sign, normals[piece] * sign[:, None], areas[piece], counts)
+
+
+def write_faces(path: Path, wanted: Wanted, radiosity: np.ndarray) -> None:
+    """Means of the pieces' radiosities, (p, 3), as a list of [face, side, mean of the channels]."""
+    faces = per_face(wanted.keys, radiosity.mean(axis=1), wanted.area)
+    path.write_text(json.dumps([[f, s, float(b)] for (f, s), b in faces.items()]))
 
 
 def spread_by_area(areas: np.ndarray, samples: int) -> np.ndarray:

@@ -5,7 +5,6 @@ brings it: run as a program of its own, so that its processor time is that of th
 
 Points are spread by area, at least one a triangle and side; SETTINGS are rtrace's ambient options."""
 
-import json
 import os
 import subprocess
 import sys
@@ -36,17 +35,13 @@ def describe(scene: obj_scene.Scene) -> str:
 
 def main(path: str, wanted: str, points: str, settings: str, out: str) -> None:
     scene = obj_scene.read(Path(path))
-    normals, areas = scene.normals_and_areas()
-    sides = {tuple(pair) for pair in json.loads(Path(wanted).read_text())}
-    pieces = [(t, s) for t, f in enumerate(scene.face) for s in (0, 1) if (f, s) in sides]
-    piece = np.array([t for t, _ in pieces])
-    sign = np.array([1.0 - 2.0 * s for _, s in pieces])
-    counts = obj_scene.spread_by_area(areas[piece], int(points))
-    owner = np.repeat(np.arange(len(pieces)), counts)
+    want = obj_scene.read_wanted(scene, Path(wanted), int(points))
+    piece, counts = want.piece, want.counts
+    owner = np.repeat(np.arange(len(piece)), counts)
     u = np.random.default_rng(1).random((len(owner), 2))
     root = np.sqrt(u[:, :1])
     a, b, c = np.moveaxis(scene.corners()[piece][owner], 1, 0)
-    up = (normals[piece] * sign[:, None])[owner]
+    up = want.normal[owner]
     lift = LIFT * np.linalg.norm(np.ptp(scene.vertices, axis=0))
     place = (1 - root) * a + root * (1 - u[:, 1:]) * b + root * u[:, 1:] * c + lift * up
     home = Path(pyradiance.__file__).parent
@@ -63,12 +58,10 @@ def main(path: str, wanted: str, points: str, settings: str, out: str) -> None:
         rows = "\n".join(" ".join(f"{x:.9g}" for x in row) for row in rays) + "\n"
         done = subprocess.run(command, input=rows.encode(), capture_output=True, check=True, env=environment)
     irradiance = np.frombuffer(done.stdout, dtype=np.float32).reshape(len(owner), 3)
-    sums = np.zeros((len(pieces), 3))
+    sums = np.zeros((len(piece), 3))
     np.add.at(sums, owner, irradiance)
     radiosity = scene.reflectance[scene.material[piece]] * sums / counts[:, None]
-    keys = [(int(scene.face[t]), s) for t, s in pieces]
-    faces = obj_scene.per_face(keys, radiosity.mean(axis=1), areas[piece])
-    Path(out).write_text(json.dumps([[f, s, float(b)] for (f, s), b in faces.items()]))
+    obj_scene.write_faces(Path(out), want, radiosity)
 
 
 if __name__ == "__main__":

@@ -5,11 +5,12 @@ use super::byte_size::{ByteSize, parse_byte_size};
 use super::error_budget_args::ErrorBudgetCommand;
 use super::reference_args::{ErrorCommand, ReferenceCommand};
 use super::solve_args::{
-    OccluderArgs, SceneArgs, SidesArg, SolveArgs, TechniqueArg, parse_threads,
+    OccluderArgs, ReadingArgs, SceneArgs, SolveArgs, TechniqueArg, parse_threads,
 };
 use super::sweep_args::SweepCommand;
 use super::view_args::ViewCommand;
 use crate::experiment::AuditConfig;
+use crate::output::UpAxis;
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -134,6 +135,10 @@ pub struct SolveCommand {
     /// solution.glb (glTF, for viewers and modelling programs) and solution.vtu (for ParaView).
     #[arg(long, value_name = "FORM", value_enum, value_delimiter = ',', default_values_t = [FormArg::Ply])]
     pub format: Vec<FormArg>,
+    /// What is up in the scene. solution.glb is turned so that it is +y, as glTF demands [default there: y]; the pictures
+    /// stand upright by it [default there: y or z, by where the lamps shine from].
+    #[arg(long, value_name = "AXIS", value_enum)]
+    pub up: Option<AxisArg>,
     /// Leave out view.exr and view.png.
     #[arg(long)]
     pub no_view: bool,
@@ -146,6 +151,27 @@ pub struct SolveCommand {
     /// Refuse a solve that is likely to need more memory than SIZE (such as 8G), and stop one that holds more after a pass.
     #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     pub max_memory: Option<ByteSize>,
+}
+
+/// `--up`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum AxisArg {
+    /// +x.
+    X,
+    /// +y.
+    Y,
+    /// +z.
+    Z,
+}
+
+impl From<AxisArg> for UpAxis {
+    fn from(axis: AxisArg) -> Self {
+        match axis {
+            AxisArg::X => Self::X,
+            AxisArg::Y => Self::Y,
+            AxisArg::Z => Self::Z,
+        }
+    }
 }
 
 /// `--format`
@@ -279,15 +305,9 @@ pub struct CompareCommand {
     /// The table beside the paper's.
     #[arg(long, value_name = "FILE.md")]
     pub markdown: Option<PathBuf>,
-    /// Bring reflectances of 1 and more down to just below 1 instead of refusing the scene.
-    #[arg(long)]
-    pub clamp_reflectance: bool,
-    /// Which sides of a surface receive and reflect light.
-    #[arg(long, value_enum, default_value_t = SidesArg::Auto)]
-    pub sides: SidesArg,
-    /// Threads; 0 is one a processor. Counts do not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
-    pub threads: usize,
+    /// How to read them.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
     /// How to solve.
     #[command(flatten)]
     pub solve: SolveArgs,
@@ -300,7 +320,7 @@ pub struct CompareCommand {
                   what the repeats spread; instructions, which callgrind counts where valgrind is installed, within 3 %. Embree is told to use AVX2, since counts depend on its instruction set."
 )]
 pub struct BenchCommand {
-    /// Which suite: ci takes under a minute, paper is Table 1.
+    /// Which suite: smoke takes a second, ci under a minute, paper is Table 1.
     #[arg(long, value_enum, default_value_t = SuiteArg::Ci)]
     pub suite: SuiteArg,
     /// Write the run as a baseline.
@@ -323,6 +343,8 @@ pub struct BenchCommand {
 /// `--suite`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum SuiteArg {
+    /// One small scene: does the check itself work?
+    Smoke,
     /// Small scenes, for every change.
     Ci,
     /// The paper's Table 1.
@@ -333,6 +355,7 @@ impl SuiteArg {
     /// The suite's name.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Smoke => "smoke",
             Self::Ci => "ci",
             Self::Paper => "paper",
         }

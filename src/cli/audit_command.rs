@@ -2,14 +2,14 @@
 
 use super::args::AuditCommand;
 use super::error::CliError;
+use super::file_head::FileHead;
 use super::progress::Progress;
-use super::scene_source::load_scene;
+use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_command::with_threads;
-use crate::embree::DeviceConfig;
 use crate::experiment::{AuditConfig, AuditReport, Detection, DetectionConfig, audit, detection};
 use crate::output::write_json;
-use crate::solve::{PreparedScene, SolveConfig, Stop};
+use crate::solve::{SolveConfig, Stop};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,7 +17,7 @@ use std::time::Instant;
 /// Solves, audits, reports.
 pub fn run(session: &Session, command: &AuditCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    with_threads(command.scene.threads, || {
+    with_threads(command.scene.reading.threads, || {
         audit_and_report(session, command, &config)
     })
 }
@@ -25,10 +25,8 @@ pub fn run(session: &Session, command: &AuditCommand) -> Result<(), CliError> {
 /// The report as a file.
 #[derive(Serialize)]
 struct AuditFile<'a> {
-    format: u32,
-    certilux: &'static str,
-    embree: String,
-    command: &'a [String],
+    #[serde(flatten)]
+    head: FileHead<'a>,
     scene: &'a str,
     polygons: usize,
     technique: &'static str,
@@ -71,13 +69,8 @@ fn audit_and_report(
     let start = Instant::now();
     let scene = load_scene(&command.scene)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
-    let prepared = PreparedScene::new(
-        scene,
-        command.scene.sides_mode(),
-        config.seed,
-        &DeviceConfig::default(),
-    )?
-    .with_guarantees(config.technique, &command.solve.occluders.config());
+    let prepared = prepare(scene, &command.scene.reading, config.seed)?
+        .with_guarantees(config.technique, &command.solve.occluders.config());
     let audit_config = AuditConfig {
         claims: command.claims,
         rays_per_claim: command.rays_per_claim,
@@ -97,10 +90,7 @@ fn audit_and_report(
     print_detection(session, &detection);
     if let Some(path) = &command.json {
         let file = AuditFile {
-            format: 1,
-            certilux: env!("CARGO_PKG_VERSION"),
-            embree: prepared.embree_version.to_string(),
-            command: &session.words,
+            head: FileHead::new(session, prepared.embree_version),
             scene: &prepared.scene.name,
             polygons: prepared.scene.polygons.len(),
             technique: config.technique.name(),

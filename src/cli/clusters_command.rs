@@ -2,21 +2,15 @@
 
 use super::args::ClustersCommand;
 use super::error::CliError;
-use super::scene_source::load_scene;
+use super::scene_source::{load_scene, prepare};
 use super::session::Session;
-use crate::embree::DeviceConfig;
 use crate::output::write_cluster_ply;
-use crate::solve::{PreparedScene, SolveConfig};
+use crate::solve::SolveConfig;
 
 /// Writes the clusters where the hierarchy is cut at `--count` nodes.
 pub fn run(session: &Session, command: &ClustersCommand) -> Result<(), CliError> {
     let scene = load_scene(&command.scene)?;
-    let prepared = PreparedScene::new(
-        scene,
-        command.scene.sides_mode(),
-        SolveConfig::default().seed,
-        &DeviceConfig::default(),
-    )?;
+    let prepared = prepare(scene, &command.scene.reading, SolveConfig::default().seed)?;
     let shown = write_cluster_ply(
         &command.out,
         &prepared.scene,

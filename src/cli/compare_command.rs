@@ -2,18 +2,17 @@
 
 use super::args::CompareCommand;
 use super::error::CliError;
+use super::file_head::FileHead;
 use super::progress::Progress;
-use super::scene_source::load_scene;
+use super::scene_source::{load_named, prepare};
 use super::session::Session;
-use super::solve_args::SceneArgs;
 use super::solve_command::with_threads;
-use crate::embree::DeviceConfig;
 use crate::experiment::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, TableSettings, compare, summarise,
     table_settings,
 };
 use crate::output::{comparison_csv, comparison_markdown, write_json, write_text};
-use crate::solve::{PreparedScene, SolveConfig, Technique};
+use crate::solve::{SolveConfig, Technique};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -23,10 +22,8 @@ const PASSES: u32 = 3;
 /// What the JSON holds.
 #[derive(Serialize)]
 struct ComparisonFile<'a> {
-    format: u32,
-    certilux: &'a str,
-    embree: String,
-    command: &'a [String],
+    #[serde(flatten)]
+    head: FileHead<'a>,
     threads: usize,
     repeats: u32,
     scenes: Vec<SceneSettings>,
@@ -48,7 +45,9 @@ struct SceneSettings {
 /// Runs the comparison and writes what was asked for; the table goes to standard output.
 pub fn run(session: &Session, command: &CompareCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    with_threads(command.threads, || compare_all(session, command, &config))
+    with_threads(command.reading.threads, || {
+        compare_all(session, command, &config)
+    })
 }
 
 fn compare_all(
@@ -63,19 +62,9 @@ fn compare_all(
     for name in &command.scenes {
         let table = name.strip_prefix("builtin:").and_then(table_settings);
         let scene_config = settings_for(command, config, table);
-        let reading = SceneArgs {
-            scene: name.into(),
-            clamp_reflectance: command.clamp_reflectance,
-            sides: command.sides,
-            threads: command.threads,
-        };
-        let prepared = PreparedScene::new(
-            load_scene(&reading)?,
-            reading.sides_mode(),
-            config.seed,
-            &DeviceConfig::default(),
-        )?
-        .with_guarantees(Technique::Blockers, &command.solve.occluders.config());
+        let scene = load_named(name.as_ref(), &command.reading)?;
+        let prepared = prepare(scene, &command.reading, config.seed)?
+            .with_guarantees(Technique::Blockers, &command.solve.occluders.config());
         let passes = command
             .solve
             .passes
@@ -134,10 +123,7 @@ fn compare_all(
     }
     if let Some(path) = &command.json {
         let file = ComparisonFile {
-            format: 1,
-            certilux: env!("CARGO_PKG_VERSION"),
-            embree,
-            command: &session.words,
+            head: FileHead::new(session, embree),
             threads: rayon::current_num_threads(),
             repeats: command.repeat,
             scenes,

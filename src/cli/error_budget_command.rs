@@ -2,31 +2,31 @@
 
 use super::error::CliError;
 use super::error_budget_args::ErrorBudgetCommand;
+use super::file_head::FileHead;
 use super::progress::Progress;
-use super::scene_source::load_scene;
+use super::scene_source::{load_scene, prepare};
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
 use super::sweep_command::check_faces;
-use crate::embree::DeviceConfig;
 use crate::experiment::{BudgetedError, ErrorBudget, error_budget};
 use crate::output::{read_reference, true_faces, write_json};
-use crate::solve::{PreparedScene, SolveConfig};
+use crate::solve::SolveConfig;
 use serde::Serialize;
 use std::sync::Arc;
 
 /// Prints the table.
 pub fn run(session: &Session, command: &ErrorBudgetCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    with_threads(command.scene.threads, || budget(session, command, &config))
+    with_threads(command.scene.reading.threads, || {
+        budget(session, command, &config)
+    })
 }
 
 /// What `--json` writes.
 #[derive(Serialize)]
 struct BudgetFile<'a> {
-    format: u32,
-    certilux: &'a str,
-    embree: String,
-    command: &'a [String],
+    #[serde(flatten)]
+    head: FileHead<'a>,
     scene: &'a str,
     #[serde(flatten)]
     budget: &'a ErrorBudget,
@@ -41,23 +41,15 @@ fn budget(
     let scene = session.stops_at_once(|| load_scene(&command.scene))?;
     check_faces(&records, &scene)?;
     let truth = true_faces(&records, Some(&scene))?;
-    let prepared = PreparedScene::new(
-        scene,
-        command.scene.sides_mode(),
-        config.seed,
-        &DeviceConfig::default(),
-    )?
-    .with_guarantees(config.technique, &command.solve.occluders.config());
+    let prepared = prepare(scene, &command.scene.reading, config.seed)?
+        .with_guarantees(config.technique, &command.solve.occluders.config());
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
     let budget = error_budget(&prepared, &truth, config, command.seeds, &progress)?;
     drop(progress);
     print_budget(&prepared.scene.name, &budget);
     if let Some(path) = &command.json {
         let file = BudgetFile {
-            format: 1,
-            certilux: env!("CARGO_PKG_VERSION"),
-            embree: prepared.embree_version.to_string(),
-            command: &session.words,
+            head: FileHead::new(session, prepared.embree_version),
             scene: &prepared.scene.name,
             budget: &budget,
         };

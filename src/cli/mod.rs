@@ -17,6 +17,7 @@ mod error;
 mod error_budget_args;
 mod error_budget_command;
 mod error_command;
+mod file_head;
 mod flag_vocabulary;
 mod folder_lock;
 mod generate_command;

@@ -2,24 +2,18 @@
 
 use super::args::OccludersCommand;
 use super::error::CliError;
-use super::scene_source::load_scene;
+use super::scene_source::{load_scene, prepare};
 use super::session::Session;
-use crate::embree::DeviceConfig;
 use crate::occluder::extract_occluders;
 use crate::output::{OccluderSummary, write_json, write_occluders};
-use crate::solve::{PreparedScene, SolveConfig};
+use crate::solve::SolveConfig;
 use std::time::Instant;
 
 /// Extracts the occluders and writes them.
 pub fn run(session: &Session, command: &OccludersCommand) -> Result<(), CliError> {
     let scene = load_scene(&command.scene)?;
     let config = command.occluders.config();
-    let prepared = PreparedScene::new(
-        scene,
-        command.scene.sides_mode(),
-        SolveConfig::default().seed,
-        &DeviceConfig::default(),
-    )?;
+    let prepared = prepare(scene, &command.scene.reading, SolveConfig::default().seed)?;
     let start = Instant::now();
     let set = extract_occluders(&prepared.scene, &prepared.hierarchy, &config);
     let seconds = start.elapsed().as_secs_f64();

@@ -2,11 +2,11 @@
 
 use super::error::CliError;
 use super::progress::Progress;
+use super::scene_source::prepare;
 use super::session::Session;
 use super::solved_scene::SolvedScene;
-use crate::embree::DeviceConfig;
 use crate::output::{RaysByReceiver, SolvedMesh, ray_density};
-use crate::solve::{ElementName, Observer, PassStatistics, PreparedScene, solve};
+use crate::solve::{ElementName, Observer, PassStatistics, solve};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Passes on what it hears, and counts rays by receiver.
@@ -52,13 +52,8 @@ pub struct CountedRays {
 pub fn count_rays(session: &Session, solved: SolvedScene) -> Result<CountedRays, CliError> {
     let config = solved.command.solve.config()?;
     let prepared = session.stops_at_once(|| {
-        PreparedScene::new(
-            solved.scene,
-            solved.command.scene.sides_mode(),
-            config.seed,
-            &DeviceConfig::default(),
-        )
-        .map(|p| p.with_guarantees(config.technique, &solved.command.solve.occluders.config()))
+        prepare(solved.scene, &solved.command.scene.reading, config.seed)
+            .map(|p| p.with_guarantees(config.technique, &solved.command.solve.occluders.config()))
     })?;
     let counter = RayCounter {
         progress: Progress::new(session.quiet, Arc::clone(&session.interrupted), &config),

@@ -25,7 +25,7 @@ pub fn run(session: &Session, command: &ReferenceCommand) -> Result<(), CliError
         seed: command.seed,
     };
     config.validate().map_err(ReferenceError::from)?;
-    with_threads(command.scene.threads, || {
+    with_threads(command.scene.reading.threads, || {
         measure_and_write(session, command, &config)
     })
 }
@@ -51,7 +51,7 @@ pub fn measure_scene(
 ) -> Result<(ReferenceMeta, Reference), CliError> {
     let traced = TracedScene::new(
         scene,
-        arguments.sides_mode(),
+        arguments.reading.sides_mode(),
         // The sides of a solve, whatever the seed of the paths.
         SolveConfig::default().seed,
         &DeviceConfig::default(),
@@ -68,7 +68,7 @@ pub fn measure_scene(
     } else {
         0.0
     };
-    let sides = arguments.sides.to_possible_value();
+    let sides = arguments.reading.sides.to_possible_value();
     let meta = ReferenceMeta {
         format: ReferenceMeta::FORMAT,
         certilux: env!("CARGO_PKG_VERSION").to_owned(),

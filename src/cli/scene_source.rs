@@ -2,9 +2,11 @@
 
 use super::error::CliError;
 use super::logs;
-use super::solve_args::SceneArgs;
+use super::solve_args::{ReadingArgs, SceneArgs};
+use crate::embree::{DeviceConfig, EmbreeError};
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, Scene, load_file, load_text};
+use crate::solve::PreparedScene;
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -13,7 +15,12 @@ const BUILTIN: &str = "builtin:";
 
 /// Loads the scene that the command line names, and says what is odd about it.
 pub fn load_scene(arguments: &SceneArgs) -> Result<Scene, CliError> {
-    let scene = read_scene(&arguments.scene, &arguments.load_config())?;
+    load_named(&arguments.scene, &arguments.reading)
+}
+
+/// Loads the scene that `source` names, and says what is odd about it.
+pub fn load_named(source: &OsStr, reading: &ReadingArgs) -> Result<Scene, CliError> {
+    let scene = read_scene(source, &reading.load_config())?;
     for warning in &scene.warnings {
         logs::warn(format_args!("{}", warning.0));
     }
@@ -38,4 +45,13 @@ pub fn read_scene(source: &OsStr, config: &LoadConfig) -> Result<Scene, CliError
             )?)
         }
     }
+}
+
+/// Builds what every command that looks into a scene needs, on a device as it comes.
+pub fn prepare(
+    scene: Scene,
+    reading: &ReadingArgs,
+    seed: u64,
+) -> Result<PreparedScene, EmbreeError> {
+    PreparedScene::new(scene, reading.sides_mode(), seed, &DeviceConfig::default())
 }

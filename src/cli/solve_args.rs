@@ -13,6 +13,14 @@ pub struct SceneArgs {
     /// An OBJ file, or builtin:NAME (certilux generate --list).
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
+    /// How to read it.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
+}
+
+/// How scenes are read.
+#[derive(Clone, Debug, Args)]
+pub struct ReadingArgs {
     /// Bring reflectances of 1 and more down to just below 1 instead of refusing the scene.
     #[arg(long)]
     pub clamp_reflectance: bool,
@@ -34,7 +42,7 @@ pub fn parse_threads(text: &str) -> Result<usize, String> {
     }
 }
 
-impl SceneArgs {
+impl ReadingArgs {
     /// How to load.
     pub fn load_config(&self) -> LoadConfig {
         LoadConfig {

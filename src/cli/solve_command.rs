@@ -9,15 +9,14 @@ use super::memory_guard::{MemoryGuard, check_estimate};
 use super::progress::Progress;
 use super::quality::Quality;
 use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
-use super::scene_source::load_scene;
+use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_settings::settings;
 use super::summary::print_summary;
-use crate::embree::DeviceConfig;
 use crate::job::MemoryEstimate;
 use crate::output::{
     ContentBlock, Fingerprint, HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh,
-    Staging, StatsFile, ViewConfig, file_hash, write_glb, write_ply, write_vtu,
+    Staging, StatsFile, UpAxis, ViewConfig, file_hash, write_glb, write_ply, write_vtu,
 };
 use crate::solve::{
     ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, resume, solve,
@@ -29,7 +28,7 @@ use std::time::Instant;
 /// Solves a scene and writes the results.
 pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    with_threads(command.scene.threads, || {
+    with_threads(command.scene.reading.threads, || {
         solve_and_write(session, command, &config)
     })
 }
@@ -80,13 +79,8 @@ fn solve_and_write(
     let _lock = FolderLock::take(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
     let prepared = session.stops_at_once(|| {
-        PreparedScene::new(
-            scene,
-            command.scene.sides_mode(),
-            config.seed,
-            &DeviceConfig::default(),
-        )
-        .map(|p| p.with_guarantees(config.technique, &command.solve.occluders.config()))
+        prepare(scene, &command.scene.reading, config.seed)
+            .map(|p| p.with_guarantees(config.technique, &command.solve.occluders.config()))
     })?;
     tracing::info!(
         facets = prepared.hierarchy.facets.len(),
@@ -128,7 +122,7 @@ fn solve_and_write(
     if !command.no_view {
         let picture = render(
             &mesh,
-            |view| view.automatic_camera(DEFAULT_SIZE),
+            |view| view.automatic_camera(DEFAULT_SIZE, command.up.map(UpAxis::from)),
             &ViewConfig::default(),
             &session.interrupted,
         )?;
@@ -206,7 +200,10 @@ fn write_forms(
         let path = staging.file(name)?;
         match form {
             FormArg::Ply => {}
-            FormArg::Glb => write_glb(&path, mesh, &session.interrupted)?,
+            FormArg::Glb => {
+                let up = command.up.map_or(UpAxis::Y, UpAxis::from);
+                write_glb(&path, mesh, up, &session.interrupted)?;
+            }
             FormArg::Vtu => write_vtu(&path, mesh, &session.interrupted)?,
         }
     }

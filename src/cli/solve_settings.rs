@@ -43,7 +43,7 @@ pub fn settings(command: &SolveCommand, config: &SolveConfig) -> BTreeMap<String
         ("seed", seed.to_string()),
         ("normalise", name_of(command.solve.normalise)),
         ("stride", stride),
-        ("sides", name_of(command.scene.sides)),
+        ("sides", name_of(command.scene.reading.sides)),
         ("occluders", occluders.per_cluster.to_string()),
         ("occluder-size", real(occluders.min_area)),
         ("flatness", real(occluders.flatness_degrees)),

@@ -3,16 +3,15 @@
 use super::error::CliError;
 use super::reference_command::measure_scene;
 use super::render::make_folder;
-use super::scene_source::load_scene;
+use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_command::with_threads;
 use super::sweep_args::{SweepCommand, presets};
 use super::sweep_progress::SweepProgress;
-use crate::embree::DeviceConfig;
 use crate::experiment::{Sweep, SweepRow, SweepSettings, error_at_cost, sweep_fronts};
 use crate::output::{
     OutputError, ReferenceFace, SweepCost, SweepKey, SweepMeta, read_reference, read_sweep,
-    sweep_csv, true_faces, write_reference, write_sweep, write_sweep_plot, write_text,
+    scene_hash, sweep_csv, true_faces, write_reference, write_sweep, write_sweep_plot, write_text,
 };
 use crate::reference::{ReferenceError, SolvedLights, TrueFace, solution_error};
 use crate::scene::Scene;
@@ -36,7 +35,7 @@ pub fn run(session: &Session, command: &SweepCommand) -> Result<(), CliError> {
         .reference_config()
         .validate()
         .map_err(ReferenceError::from)?;
-    with_threads(command.scene.threads, || {
+    with_threads(command.scene.reading.threads, || {
         sweep_and_write(session, command, &points)
     })
 }
@@ -66,19 +65,14 @@ fn sweep_and_write(
     let mean = solution_error(&truth, &SolvedLights::new())?.mean;
     let start = Instant::now();
     let base = command.base();
-    let mut prepared = PreparedScene::new(
-        scene,
-        command.scene.sides_mode(),
-        base.seed,
-        &DeviceConfig::default(),
-    )?;
-    let sides = command.scene.sides.to_possible_value();
+    let mut prepared = prepare(scene, &command.scene.reading, base.seed)?;
+    let sides = command.scene.reading.sides.to_possible_value();
     let meta = SweepMeta {
         key: SweepKey {
             format: SweepKey::FORMAT,
             certilux: env!("CARGO_PKG_VERSION").to_owned(),
             embree: prepared.embree_version.to_string(),
-            scene_hash: format!("{:016x}", prepared.scene.fingerprint()),
+            scene_hash: scene_hash(&prepared.scene),
             sides: sides.map_or_else(String::new, |v| v.get_name().to_owned()),
             seed: base.seed,
             normalise: base.normalise,

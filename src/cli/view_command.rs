@@ -8,7 +8,7 @@ use super::solve_command::with_threads;
 use super::view_args::{ShowArg, ViewCommand};
 use super::view_exhibit::{Subject, exhibit};
 use crate::embree::{Device, DeviceConfig};
-use crate::output::{Camera, Picture, PinHole, Shading, View, ViewConfig};
+use crate::output::{Camera, Picture, PinHole, Shading, UpAxis, View, ViewConfig};
 use glam::DVec3;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -118,7 +118,7 @@ fn camera(view: &View, command: &ViewCommand) -> Camera {
     // Looking for a place takes seconds in a large scene.
     let automatic = match (given, command.up, command.fov) {
         (true, Some(_), Some(_)) => None,
-        _ => Some(view.automatic_camera(size)),
+        _ => Some(view.automatic_camera(size, command.up.map(|up| UpAxis::nearest(up.into())))),
     };
     let or = |given: Option<[f64; 3]>, automatic: Option<DVec3>| {
         (given.map(DVec3::from).or(automatic)).unwrap_or_default()

@@ -3,11 +3,11 @@
 use super::error::CliError;
 use super::logs;
 use super::ray_counter::count_rays;
-use super::scene_source::read_scene;
+use super::scene_source::{prepare, read_scene};
 use super::session::Session;
 use super::solved_scene::SolvedScene;
 use super::view_args::{ShowArg, ViewCommand};
-use crate::embree::{Device, DeviceConfig};
+use crate::embree::Device;
 use crate::occluder::extract_occluders;
 use crate::output::{
     ColourScale, Exhibit, Picture, PinHole, Shown, SolvedMesh, Spread, View, errors_of_faces,
@@ -103,6 +103,11 @@ pub fn exhibit(
         pixels: Vec::new(),
     });
     let tone_map = light.exposure().brighter(command.exposure);
+    let coloured = |values: &[Option<f64>], name, unit, spread| {
+        let numbers = with_areas(view.mesh(), values);
+        let scale = ColourScale::new(name, unit, spread, numbers, command.greatest);
+        exhibit.values(values, scale)
+    };
     let shown = match (command.show, matter) {
         (_, Matter::Error(error)) => {
             session.say(format_args!(
@@ -111,29 +116,13 @@ pub fn exhibit(
                 100.0 * error.bias
             ));
             let values = errors_of_faces(view.mesh(), &error);
-            let numbers = with_areas(view.mesh(), &values);
-            let scale = ColourScale::new(
-                "error",
-                "% of mean",
-                Spread::Signed,
-                numbers,
-                command.greatest,
-            );
-            exhibit.values(&values, scale)
+            coloured(&values, "error", "% of mean", Spread::Signed)
         }
         (_, Matter::Rays(density)) => {
-            let numbers = with_areas(view.mesh(), &density);
-            let scale = ColourScale::new(
-                "rays per area",
-                "1/m2",
-                Spread::Logarithmic,
-                numbers,
-                command.greatest,
-            );
-            exhibit.values(&density, scale)
+            coloured(&density, "rays per area", "1/m2", Spread::Logarithmic)
         }
         (ShowArg::Clusters, Matter::Scene(solved)) => {
-            let prepared = prepare(session, *solved)?.1;
+            let prepared = prepare_again(session, *solved)?.1;
             let count = command.clusters as usize;
             let shown = exhibit.clusters(&prepared.scene, &prepared.hierarchy, count);
             shown.map(|(shown, clusters)| {
@@ -142,7 +131,7 @@ pub fn exhibit(
             })
         }
         (_, Matter::Scene(solved)) => {
-            let (config, prepared) = prepare(session, *solved)?;
+            let (config, prepared) = prepare_again(session, *solved)?;
             let set = session
                 .stops_at_once(|| extract_occluders(&prepared.scene, &prepared.hierarchy, &config));
             session.say(format_args!("{} occluders", set.occluders.len()));
@@ -163,15 +152,13 @@ fn with_areas<'a>(
 }
 
 /// The scene with its hierarchy, and how its occluders are found.
-fn prepare(
+fn prepare_again(
     session: &Session,
     solved: SolvedScene,
 ) -> Result<(crate::occluder::OccluderConfig, PreparedScene), CliError> {
     let solve = &solved.command.solve;
     let (config, seed) = (solve.occluders.config(), solve.seed);
-    let sides = solved.command.scene.sides_mode();
-    let prepared = session.stops_at_once(|| {
-        PreparedScene::new(solved.scene, sides, seed, &DeviceConfig::default())
-    })?;
+    let reading = &solved.command.scene.reading;
+    let prepared = session.stops_at_once(|| prepare(solved.scene, reading, seed))?;
     Ok((config, prepared))
 }

@@ -1,6 +1,7 @@
 //! The audit can fail: false claims are planted in the engine before it looks, and it finds each.
 
-use super::audit::{AuditConfig, AuditReport, Flaw, audit};
+use super::audit::{AuditConfig, audit};
+use super::audit_report::{AuditReport, Flaw};
 use super::continuous_surface::{SurfaceProof, prove_surface};
 use crate::cluster::Hierarchy;
 use crate::embree::DeviceConfig;

@@ -2,6 +2,7 @@
 //! accuracy.
 
 mod audit;
+mod audit_report;
 #[cfg(test)]
 mod audit_tests;
 mod baseline_key;
@@ -24,7 +25,8 @@ mod sweep;
 mod sweep_settings;
 mod table_one;
 
-pub use audit::{AuditConfig, AuditError, AuditReport, Flaw, audit};
+pub use audit::{AuditConfig, AuditError, audit};
+pub use audit_report::{AuditReport, ClaimRecord, ElementRecord, Flaw};
 pub use baseline_key::{BaselineKey, COMPILER};
 pub use comparison::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, Times, compare, summarise,

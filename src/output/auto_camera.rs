@@ -6,30 +6,20 @@
 //! random and ties go to the earlier candidate, so the same solution gives the same camera.
 
 use super::camera::Camera;
-use super::eye_places::SurfacePoint;
-use super::solved_mesh::triangle_area;
+use super::level_frame::{ANGLE_OF_VIEW, AZIMUTHS, LevelFrame};
+use super::surface_points::SurfacePoint;
+use super::up_axis::UpAxis;
 use super::view::View;
 use crate::embree::{Hit, Ray};
 use crate::math::SampleSequence;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
-/// Points that stand for the lit surface. Their number bounds the noise of a score to 1 in 30.
-const SURFACE_POINTS: usize = 1024;
-
-/// Directions tried around the vertical, and slopes of the view: level, and a little downwards,
-/// because floors hold more of a scene than ceilings do.
-const AZIMUTHS: usize = 24;
+/// Slopes of the view: level, and a little downwards, because floors hold more of a scene than ceilings do.
 const SLOPES: [f64; 3] = [0.0, -0.12, -0.25];
-
-/// Vertical angle of view in degrees: wide, as interiors are photographed.
-const ANGLE_OF_VIEW: f64 = 60.0;
 
 /// Best pairs of eye and direction, a picture's worth of rays each, that are looked at closely.
 const FINALISTS: usize = 96;
-
-/// Rays across and down such a close look.
-const LOOK: [usize; 2] = [16, 10];
 
 /// Directions around an eye that tell indoors from outdoors.
 const AROUND: u32 = 64;
@@ -50,13 +40,13 @@ struct Shot {
 }
 
 impl View<'_> {
-    /// A camera for a picture of `size` pixels. A scene without light is seen from one corner of its
-    /// bounds.
-    pub fn automatic_camera(&self, size: [u32; 2]) -> Camera {
-        let up = self.up();
+    /// A camera for a picture of `size` pixels; `None` guesses what is up. A scene without light is seen from one
+    /// corner of its bounds.
+    pub fn automatic_camera(&self, size: [u32; 2], up: Option<UpAxis>) -> Camera {
+        let up = up.unwrap_or_else(|| self.vertical());
         let (points, lit_area) = self.surface_points();
         let aspect = f64::from(size[0].max(1)) / f64::from(size[1].max(1));
-        let frame = FrameShape::new(up, aspect);
+        let frame = LevelFrame::new(up, aspect);
         let eyes = self.eyes(&points, up);
         let shots: Vec<Shot> = eyes
             .into_par_iter()
@@ -82,120 +72,28 @@ impl View<'_> {
         Camera {
             eye: self.frame.to_file(eye),
             target: self.frame.to_file(eye + forward),
-            up,
+            up: up.direction(),
             fov: ANGLE_OF_VIEW,
             size,
         }
     }
 
-    /// The vertical: +y, the custom of OBJ files, or +z. Lamps shine downwards, and buildings are
-    /// lower than they are wide; y wins where neither tells.
-    fn up(&self) -> DVec3 {
-        /// Lamps tell more than proportions do: a tower is taller than wide.
-        const LAMPS: f64 = 2.0;
-        /// Decides between equals.
-        const CUSTOM: f64 = 0.1;
-        let mut lamps = DVec3::ZERO;
-        let mut power = 0.0;
-        for (p, panel) in self.panels.panels.iter().enumerate() {
-            let normal = self.panels.normal(panel);
-            for face in &self.mesh.faces[self.panels.leaf_range(panel)] {
-                let emitted: f64 = (0..3)
-                    .map(|c| {
-                        let reflected = self.reflectance[p][c] * face.irradiance[c];
-                        f64::from(face.radiosity[c] - reflected)
-                    })
-                    .sum();
-                let all: f64 = face.radiosity.iter().map(|&b| f64::from(b)).sum();
-                // Less is the rounding of the reflectance, not a lamp.
-                if emitted > 0.01 * all {
-                    let weight = emitted * self.mesh.area(face);
-                    lamps += weight * normal;
-                    power += weight;
-                }
-            }
-        }
-        let lamps = if power > 0.0 { lamps / power } else { lamps };
-        let extent = self.extent();
-        let score = |axis: DVec3| {
-            LAMPS * (-lamps.dot(axis)).max(0.0) + 1.0 - extent.dot(axis) / extent.max_element()
-        };
-        if score(DVec3::Z) > score(DVec3::Y) + CUSTOM {
-            DVec3::Z
-        } else {
-            DVec3::Y
-        }
-    }
-
-    /// Size of the bounding box in the units of the rays.
-    fn extent(&self) -> DVec3 {
-        let (least, greatest) = self.bounds();
-        (greatest - least).max(DVec3::splat(f64::MIN_POSITIVE))
-    }
-
     /// A view of everything from one corner, for scenes without light.
-    fn overview(&self, up: DVec3) -> (DVec3, DVec3) {
+    fn overview(&self, up: UpAxis) -> (DVec3, DVec3) {
         let (least, greatest) = self.bounds();
         if !least.is_finite() {
             return (DVec3::ZERO, DVec3::X);
         }
         let centre = 0.5 * (least + greatest);
-        let aside = if up == DVec3::Y { DVec3::Z } else { DVec3::Y };
-        let away = (DVec3::X + aside + 0.7 * up).normalize() * (greatest - least).length() * 1.2;
+        let [first, second] = up.level();
+        let away = (first + second.abs() + 0.7 * up.direction()).normalize()
+            * (greatest - least).length()
+            * 1.2;
         (centre + away, -away)
     }
 
-    /// Points spread over the lit surface, and its area in the units of the rays.
-    fn surface_points(&self) -> (Vec<SurfacePoint>, f64) {
-        let mean = |b: [f32; 3]| (f64::from(b[0]) + f64::from(b[1]) + f64::from(b[2])) / 3.0;
-        let corners = |leaf: usize| {
-            self.panels.leaves[leaf].corners.map(|v| {
-                self.frame
-                    .point(self.panels.positions[v as usize])
-                    .as_dvec3()
-            })
-        };
-        let area: Vec<f64> = (0..self.panels.leaves.len())
-            .map(|leaf| triangle_area(corners(leaf)))
-            .collect();
-        let lit: Vec<usize> = (0..area.len())
-            .filter(|&leaf| area[leaf] > 0.0 && mean(self.mesh.faces[leaf].radiosity) > 0.0)
-            .collect();
-        let lit_area: f64 = lit.iter().map(|&leaf| area[leaf]).sum();
-        let power: f64 = (lit.iter())
-            .map(|&leaf| area[leaf] * mean(self.mesh.faces[leaf].radiosity))
-            .sum();
-        if power == 0.0 || !power.is_finite() {
-            return (Vec::new(), 0.0);
-        }
-        // Capped at the mean, so that dim rooms count little and lamps no more than what they light.
-        let weight = |leaf: usize| {
-            area[leaf] * (mean(self.mesh.faces[leaf].radiosity) / (power / lit_area)).min(1.0)
-        };
-        let total: f64 = lit.iter().map(|&leaf| weight(leaf)).sum();
-        let sequence = SampleSequence::new(0);
-        let mut points = Vec::with_capacity(SURFACE_POINTS);
-        let mut passed = 0.0;
-        for &leaf in &lit {
-            passed += weight(leaf) / total;
-            // Evenly spaced along the sum of weights.
-            while points.len() < SURFACE_POINTS
-                && passed * SURFACE_POINTS as f64 > points.len() as f64 + 0.5
-            {
-                let [s, t, ..] = sequence.point(points.len() as u32).map(f64::from);
-                // The square root makes the points uniform over the triangle.
-                let (root, [a, b, c]) = (s.sqrt(), corners(leaf));
-                points.push(SurfacePoint {
-                    position: a * (1.0 - root) + b * (root * (1.0 - t)) + c * (root * t),
-                    normal: (b - a).cross(c - a).normalize_or_zero(),
-                });
-            }
-        }
-        (points, lit_area)
-    }
-
     /// The best direction of each slope from an eye.
-    fn best_shots(&self, eye: DVec3, points: &[SurfacePoint], frame: &FrameShape) -> Vec<Shot> {
+    fn best_shots(&self, eye: DVec3, points: &[SurfacePoint], frame: &LevelFrame) -> Vec<Shot> {
         let facing: Vec<&SurfacePoint> = points
             .iter()
             .filter(|p| (eye - p.position).dot(p.normal) > 0.0)
@@ -237,9 +135,9 @@ impl View<'_> {
     }
 
     /// 1 for a picture full of lit surface at a distance, less for what spoils it.
-    fn quality(&self, shot: &Shot, frame: &FrameShape, lit_area: f64) -> f64 {
+    fn quality(&self, shot: &Shot, frame: &LevelFrame, lit_area: f64) -> f64 {
         let near = TOO_NEAR * (shot.around * lit_area).sqrt();
-        let rays = frame.look(shot);
+        let rays = frame.look(shot.eye, shot.forward);
         let mut hits = Vec::new();
         self.embree.closest_hits(&rays, &mut hits);
         let eye = self.frame.to_file(shot.eye);
@@ -270,66 +168,6 @@ impl View<'_> {
         let mut hits = Vec::new();
         self.embree.closest_hits(&rays, &mut hits);
         hits.iter().flatten().count() as f64 / f64::from(AROUND)
-    }
-}
-
-/// The frame of a level camera.
-struct FrameShape {
-    up: DVec3,
-    /// Two horizontal axes.
-    axes: [DVec3; 2],
-    /// Half width and half height at distance 1.
-    half: [f64; 2],
-}
-
-impl FrameShape {
-    fn new(up: DVec3, aspect: f64) -> Self {
-        let half_height = (0.5 * ANGLE_OF_VIEW.to_radians()).tan();
-        Self {
-            up,
-            axes: [DVec3::X, up.cross(DVec3::X)],
-            half: [aspect * half_height, half_height],
-        }
-    }
-
-    fn forward(&self, azimuth: usize, slope: f64) -> DVec3 {
-        let angle = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
-        self.axes[0] * angle.cos() + self.axes[1] * angle.sin() + self.up * slope
-    }
-
-    /// Unit forward, right and up of a view.
-    fn basis(&self, forward: DVec3) -> [DVec3; 3] {
-        let forward = forward.normalize();
-        let right = forward.cross(self.up).normalize();
-        [forward, right, right.cross(forward)]
-    }
-
-    /// How many of the directions lie in the frame.
-    fn count(&self, forward: DVec3, directions: &[DVec3]) -> usize {
-        let [forward, right, up] = self.basis(forward);
-        (directions.iter())
-            .filter(|d| {
-                let depth = d.dot(forward);
-                d.dot(right).abs() <= self.half[0] * depth
-                    && d.dot(up).abs() <= self.half[1] * depth
-            })
-            .count()
-    }
-
-    /// A coarse picture's rays, of unit depth.
-    fn look(&self, shot: &Shot) -> Vec<Ray> {
-        let [forward, right, up] = self.basis(shot.forward);
-        let eye: Vec3 = shot.eye.as_vec3();
-        let place = |i: usize, n: usize| 2.0 * (i as f64 + 0.5) / n as f64 - 1.0;
-        (0..LOOK[1])
-            .flat_map(|j| (0..LOOK[0]).map(move |i| (i, j)))
-            .map(|(i, j)| {
-                let direction = forward
-                    + right * (self.half[0] * place(i, LOOK[0]))
-                    + up * (self.half[1] * place(j, LOOK[1]));
-                Ray::half_line(eye, direction.as_vec3(), 0.0)
-            })
-            .collect()
     }
 }
 
@@ -370,7 +208,9 @@ mod tests {
 
     fn camera(mesh: &SolvedMesh) -> Camera {
         let device = Device::new(&DeviceConfig::default()).unwrap();
-        View::new(mesh, &device).unwrap().automatic_camera(SIZE)
+        View::new(mesh, &device)
+            .unwrap()
+            .automatic_camera(SIZE, None)
     }
 
     #[test]
@@ -414,6 +254,19 @@ mod tests {
             assert_eq!(face.side, Side::Front);
         }
         assert_eq!(camera(&mesh).up, DVec3::Y);
+    }
+
+    #[test]
+    fn an_up_that_is_given_is_kept() {
+        let mesh = two_rooms([0, 1, 2], 5);
+        let device = Device::new(&DeviceConfig::default()).unwrap();
+        let view = View::new(&mesh, &device).unwrap();
+        for up in [UpAxis::X, UpAxis::Y, UpAxis::Z] {
+            let camera = view.automatic_camera(SIZE, Some(up));
+            assert_eq!(camera.up, up.direction());
+            let forward = (camera.target - camera.eye).normalize();
+            assert!(forward.dot(camera.up).abs() < 0.3, "{up:?}");
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Where a camera may stand: free places in front of lit surface, off the walls, at eye height.
 
+use super::surface_points::SurfacePoint;
+use super::up_axis::UpAxis;
 use super::view::View;
 use crate::embree::Ray;
 use glam::DVec3;
@@ -22,12 +24,6 @@ const EYE_HEIGHT: f64 = 0.6;
 /// Directions around the vertical in which an eye must be clear.
 const AZIMUTHS: usize = 24;
 
-/// A point on lit surface, in the units of the rays.
-pub(super) struct SurfacePoint {
-    pub position: DVec3,
-    pub normal: DVec3,
-}
-
 /// The free way from a point in a direction.
 #[derive(Clone, Copy)]
 struct Free {
@@ -39,7 +35,7 @@ struct Free {
 impl View<'_> {
     /// Free places in front of lit surface: off the walls, and at the height of a person where
     /// there is a floor.
-    pub(super) fn eyes(&self, points: &[SurfacePoint], up: DVec3) -> Vec<DVec3> {
+    pub(super) fn eyes(&self, points: &[SurfacePoint], up: UpAxis) -> Vec<DVec3> {
         let bounds = self.bounds();
         let stride = points.len().div_ceil(EYE_POINTS).max(1);
         let mut eyes = Vec::new();
@@ -66,8 +62,8 @@ impl View<'_> {
     }
 
     /// The eye moved along both horizontal axes so far that neither side is much nearer.
-    fn off_walls(&self, mut eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
-        for axis in [DVec3::X, up.cross(DVec3::X)] {
+    fn off_walls(&self, mut eye: DVec3, up: UpAxis, bounds: (DVec3, DVec3)) -> Option<DVec3> {
+        for axis in up.level() {
             let ahead = self.free_length(eye, axis, bounds)?;
             let behind = self.free_length(eye, -axis, bounds)?;
             let limit = |free: Free| if free.open { OPEN_PLACE } else { EYE_PLACES[2] };
@@ -80,18 +76,20 @@ impl View<'_> {
     }
 
     /// The eye moved up or down to [`EYE_HEIGHT`].
-    fn at_height(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> Option<DVec3> {
+    fn at_height(&self, eye: DVec3, up: UpAxis, bounds: (DVec3, DVec3)) -> Option<DVec3> {
+        let up = up.direction();
         let above = self.free_length(eye, up, bounds)?.length;
         let below = self.free_length(eye, -up, bounds)?.length;
         Some(eye + up * (EYE_HEIGHT * (above + below) - below))
     }
 
     /// True when nothing stands close to the eye at its own height.
-    fn clear_around(&self, eye: DVec3, up: DVec3, bounds: (DVec3, DVec3)) -> bool {
+    fn clear_around(&self, eye: DVec3, up: UpAxis, bounds: (DVec3, DVec3)) -> bool {
+        let [first, second] = up.level();
         let around: Vec<Free> = (0..AZIMUTHS)
             .filter_map(|azimuth| {
                 let angle = std::f64::consts::TAU * azimuth as f64 / AZIMUTHS as f64;
-                let direction = DVec3::X * angle.cos() + up.cross(DVec3::X) * angle.sin();
+                let direction = first * angle.cos() + second * angle.sin();
                 self.free_length(eye, direction, bounds)
             })
             .collect();

@@ -1,5 +1,6 @@
 //! Small solved scenes for the tests of this module, made without the loader or the solver.
 
+use super::SolvedMesh;
 use crate::math::{PolygonId, hash_u64};
 use crate::scene::{Facet, Normalisation, Polygon, Scene, Side, Surface};
 use crate::solve::{PatchPath, Solution, SolvedPatch};
@@ -133,4 +134,38 @@ pub(crate) fn fronts(scene: &Scene) -> Vec<Facet> {
             side: Side::Front,
         })
         .collect()
+}
+
+/// A square of two triangles in the plane z = 0 and a wall on its edge x = 0, split at random,
+/// each patch with an irradiance of its own: the floor's in [1, 2), the wall's in [5, 6).
+pub(crate) fn floor_and_wall() -> SolvedMesh {
+    let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+    let scene = scene(
+        vec![
+            corner(0.0, 0.0, 0.0),
+            corner(1.0, 0.0, 0.0),
+            corner(1.0, 1.0, 0.0),
+            corner(0.0, 1.0, 0.0),
+            corner(0.0, 0.0, 1.0),
+            corner(0.0, 1.0, 1.0),
+        ],
+        &[
+            ([0, 1, 2], 0, 0),
+            ([0, 2, 3], 0, 0),
+            ([0, 3, 5], 1, 0),
+            ([0, 5, 4], 1, 0),
+        ],
+        vec![grey(0.5, 0.0)],
+    );
+    let solution = solve(&scene, fronts(&scene), 6, |facet, corners| {
+        let bits = (corners[0] + corners[1] + corners[2])
+            .to_array()
+            .map(|x| u64::from(x.to_bits()))
+            .into_iter()
+            .fold(0, |key, x| hash_u64(key ^ x));
+        let own = (bits >> 40) as f32 / (1u64 << 24) as f32;
+        let irradiance = own + if facet.polygon.0 < 2 { 1.0 } else { 5.0 };
+        (0.5 * irradiance, irradiance)
+    });
+    SolvedMesh::new(&scene, &solution)
 }

@@ -1,6 +1,6 @@
 //! `solution.glb` and `solution.vtu`, read back.
 
-use super::{SolvedMesh, fixture, write_glb, write_vtu};
+use super::{SolvedMesh, UpAxis, fixture, write_glb, write_vtu};
 use crate::scene::{Facet, Side};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -37,10 +37,45 @@ fn written(write: impl FnOnce(&Path)) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
+/// The corners of the triangles in a GLB, where its node puts them.
+fn corners_of_glb(bytes: &[u8]) -> Vec<Vec3> {
+    let file = gltf::Gltf::from_slice(bytes).unwrap();
+    let blob = file.blob.as_deref().unwrap();
+    let node = file.default_scene().unwrap().nodes().next().unwrap();
+    let (translation, rotation, scale) = node.transform().decomposed();
+    assert_eq!((rotation, scale), ([0.0, 0.0, 0.0, 1.0], [1.0; 3]));
+    let primitive = node.mesh().unwrap().primitives().next().unwrap();
+    let reader = primitive.reader(|_| Some(blob));
+    let positions: Vec<Vec3> = (reader.read_positions().unwrap())
+        .map(|p| Vec3::from_array(p) + Vec3::from_array(translation))
+        .collect();
+    (reader.read_indices().unwrap().into_u32())
+        .map(|i| positions[i as usize])
+        .collect()
+}
+
+#[test]
+fn what_is_up_is_up_in_the_glb() {
+    let mesh = mesh();
+    let expected: Vec<DVec3> = mesh.faces.iter().flat_map(|f| mesh.corners(f)).collect();
+    let turns: [(UpAxis, fn(DVec3) -> DVec3); 2] = [
+        (UpAxis::Z, |p| DVec3::new(p.x, p.z, -p.y)),
+        (UpAxis::X, |p| DVec3::new(-p.y, p.x, p.z)),
+    ];
+    for (up, turn) in turns {
+        let found = corners_of_glb(&written(|path| write_glb(path, &mesh, up, &GO).unwrap()));
+        assert_eq!(found.len(), expected.len());
+        for (&found, &expected) in found.iter().zip(&expected) {
+            let off = (found - turn(expected).as_vec3()).length();
+            assert!(off < 1e-3, "{up:?}: {off}");
+        }
+    }
+}
+
 #[test]
 fn another_reader_finds_every_triangle_in_the_glb() {
     let mesh = mesh();
-    let bytes = written(|path| write_glb(path, &mesh, &GO).unwrap());
+    let bytes = written(|path| write_glb(path, &mesh, UpAxis::Y, &GO).unwrap());
     assert_eq!(bytes.len() % 4, 0);
     // The reader refuses what is not valid glTF.
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -88,7 +123,7 @@ fn another_reader_finds_every_triangle_in_the_glb() {
 
 #[test]
 fn a_mesh_of_nothing_is_still_a_document() {
-    let bytes = written(|path| write_glb(path, &SolvedMesh::default(), &GO).unwrap());
+    let bytes = written(|path| write_glb(path, &SolvedMesh::default(), UpAxis::Y, &GO).unwrap());
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
     assert_eq!(file.meshes().count(), 0);
     let text = written(|path| write_vtu(path, &SolvedMesh::default(), &GO).unwrap());

@@ -4,8 +4,9 @@
 //! viewer adds no light of its own. Each side of a face shows on its side only: rooms can be looked into from outside.
 
 use super::panel::Panels;
-use super::smoothing::{Smoothing, reflectance};
-use super::{OutputError, SolvedMesh, ToneMap, write_atomically};
+use super::panel_reflectance::reflectance;
+use super::smoothing::Smoothing;
+use super::{OutputError, SolvedMesh, ToneMap, UpAxis, write_atomically};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -33,12 +34,12 @@ struct Vertices {
     positions: Vec<[f32; 3]>,
     colours: Vec<[u16; 4]>,
     indices: Vec<u32>,
-    /// What positions are relative to, in the file's units.
+    /// What positions are relative to, in the file's units, turned as they are.
     centre: DVec3,
     tone_map: ToneMap,
 }
 
-/// Writes the mesh to `path`, whole or not at all. Positions are rounded to f32 about the middle of the scene, where the
+/// Writes the mesh to `path`, whole or not at all, turned so that `up` becomes +y, which is up in glTF. Positions are rounded to f32 about the middle of the scene, where the
 /// node's translation puts them back.
 ///
 /// # Errors
@@ -46,9 +47,10 @@ struct Vertices {
 pub fn write_glb(
     path: &Path,
     mesh: &SolvedMesh,
+    up: UpAxis,
     interrupted: &AtomicBool,
 ) -> Result<(), OutputError> {
-    let vertices = Vertices::of(mesh);
+    let vertices = Vertices::of(mesh, up);
     let bytes = vertices.bytes();
     if i32::try_from(bytes).is_err() {
         return Err(OutputError::TooLarge {
@@ -65,22 +67,23 @@ pub fn write_glb(
 }
 
 impl Vertices {
-    fn of(mesh: &SolvedMesh) -> Self {
+    fn of(mesh: &SolvedMesh, up: UpAxis) -> Self {
         let panels = Panels::new(mesh);
         let smoothing = Smoothing::new(mesh, &panels);
         let (least, greatest) = panels.positions.iter().fold(
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |(least, greatest), &p| (least.min(p), greatest.max(p)),
         );
+        let middle = if mesh.faces.is_empty() {
+            DVec3::ZERO
+        } else {
+            0.5 * least + 0.5 * greatest
+        };
         let mut vertices = Self {
             positions: Vec::new(),
             colours: Vec::new(),
             indices: Vec::with_capacity(3 * mesh.faces.len()),
-            centre: if mesh.faces.is_empty() {
-                DVec3::ZERO
-            } else {
-                0.5 * least + 0.5 * greatest
-            },
+            centre: up.turned_to_y(middle),
             tone_map: ToneMap::automatic(mesh.faces.iter().map(|f| (f.radiosity, mesh.area(f)))),
         };
         let slopes: Vec<[f32; 3]> = (panels.panels.iter())
@@ -101,8 +104,9 @@ impl Vertices {
                     .map(|x| (f64::from(x) * f64::from(u16::MAX) + 0.5) as u16);
                 let colour = [r, g, b, u16::MAX];
                 let id = *index.entry((vertex, colour)).or_insert_with(|| {
-                    let position = panels.positions[vertex as usize] - vertices.centre;
-                    vertices.positions.push(position.as_vec3().to_array());
+                    let position = panels.positions[vertex as usize] - middle;
+                    let turned = up.turned_to_y(position).as_vec3();
+                    vertices.positions.push(turned.to_array());
                     vertices.colours.push(colour);
                     vertices.positions.len() as u32 - 1
                 });

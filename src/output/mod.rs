@@ -27,11 +27,13 @@ mod gathering_tests;
 mod glb_file;
 mod incidence;
 mod legend;
+mod level_frame;
 mod mean_value;
 mod occluder_mesh;
 mod occluder_sheets;
 mod overlay;
 mod panel;
+mod panel_reflectance;
 mod picture;
 mod ply_reader;
 #[cfg(test)]
@@ -47,9 +49,12 @@ mod smoothing;
 mod solved_mesh;
 mod staging;
 mod stats_file;
+mod surface_points;
 mod sweep_plot;
 mod sweep_table;
 mod tonemap;
+mod up_axis;
+mod vertical;
 mod view;
 #[cfg(test)]
 mod view_tests;
@@ -89,5 +94,6 @@ pub use sweep_table::{
     DEFAULTS, NamedSettings, SweepKey, SweepMeta, read_sweep, sweep_csv, write_sweep,
 };
 pub use tonemap::ToneMap;
+pub use up_axis::UpAxis;
 pub use view::{Shading, View, ViewConfig};
 pub use vtu_file::write_vtu;

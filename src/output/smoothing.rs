@@ -9,7 +9,7 @@
 use super::SolvedMesh;
 use super::incidence::{Incident, IncidentTable};
 use super::mean_value::{BorderValue, interpolate};
-use super::panel::{Panel, Panels};
+use super::panel::Panels;
 use glam::DVec3;
 
 /// Cosine of the greatest angle between normals that are shaded as one surface: 25 degrees keeps
@@ -217,74 +217,10 @@ fn closeness(panels: &Panels, vertex: usize, incident: &Incident) -> f64 {
     if weight.is_finite() { weight } else { 0.0 }
 }
 
-/// How much radiosity a panel adds per irradiance, a channel: its reflectance, read off its patches
-/// because a mesh carries no materials. Zero where nothing tells.
-pub(crate) fn reflectance(mesh: &SolvedMesh, panels: &Panels, panel: &Panel) -> [f32; 3] {
-    /// Irradiance must differ by this share within a panel for its slope to be more than rounding.
-    const TELLING: f64 = 1.0e-2;
-    let faces = &mesh.faces[panels.leaf_range(panel)];
-    std::array::from_fn(|c| {
-        let pair = |f: &super::SolvedFace| (f64::from(f.irradiance[c]), f64::from(f.radiosity[c]));
-        let (mut least, mut greatest) = (pair(&faces[0]), pair(&faces[0]));
-        for face in faces {
-            let (e, b) = pair(face);
-            if e < least.0 {
-                least = (e, b);
-            }
-            if e > greatest.0 {
-                greatest = (e, b);
-            }
-        }
-        let slope = if greatest.0 - least.0 > TELLING * greatest.0 {
-            (greatest.1 - least.1) / (greatest.0 - least.0)
-        } else if greatest.1 <= greatest.0 && greatest.0 > 0.0 {
-            greatest.1 / greatest.0
-        } else {
-            0.0
-        };
-        slope.clamp(0.0, 1.0) as f32
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::fixture::floor_and_wall;
     use super::*;
-    use crate::math::hash_u64;
-
-    /// A square of two triangles in the plane z = 0 and a wall on its edge x = 0, split at random,
-    /// each patch with an irradiance of its own: the floor's in [1, 2), the wall's in [5, 6).
-    fn floor_and_wall() -> SolvedMesh {
-        let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
-        let scene = fixture::scene(
-            vec![
-                corner(0.0, 0.0, 0.0),
-                corner(1.0, 0.0, 0.0),
-                corner(1.0, 1.0, 0.0),
-                corner(0.0, 1.0, 0.0),
-                corner(0.0, 0.0, 1.0),
-                corner(0.0, 1.0, 1.0),
-            ],
-            &[
-                ([0, 1, 2], 0, 0),
-                ([0, 2, 3], 0, 0),
-                ([0, 3, 5], 1, 0),
-                ([0, 5, 4], 1, 0),
-            ],
-            vec![fixture::grey(0.5, 0.0)],
-        );
-        let solution = fixture::solve(&scene, fixture::fronts(&scene), 6, |facet, corners| {
-            let bits = (corners[0] + corners[1] + corners[2])
-                .to_array()
-                .map(|x| u64::from(x.to_bits()))
-                .into_iter()
-                .fold(0, |key, x| hash_u64(key ^ x));
-            let own = (bits >> 40) as f32 / (1u64 << 24) as f32;
-            let irradiance = own + if facet.polygon.0 < 2 { 1.0 } else { 5.0 };
-            (0.5 * irradiance, irradiance)
-        });
-        SolvedMesh::new(&scene, &solution)
-    }
 
     /// Smooth irradiance of the floor at (x, y).
     fn on_floor(panels: &Panels, smoothing: &Smoothing, x: f64, y: f64) -> f64 {
@@ -389,24 +325,5 @@ mod tests {
             let [e, ..] = smoothing.irradiance(i, [0.3, 0.3, 0.4]);
             assert!((e - 0.25).abs() < 1e-6);
         }
-    }
-
-    #[test]
-    fn the_reflectance_is_read_off_the_patches() {
-        let mut mesh = floor_and_wall();
-        let panels = Panels::new(&mesh);
-        let of = |mesh: &SolvedMesh, p: usize| reflectance(mesh, &panels, &panels.panels[p])[0];
-        assert!((of(&mesh, 0) - 0.5).abs() < 1e-5);
-        // An emitter of varied irradiance: the slope, not the ratio.
-        for face in &mut mesh.faces {
-            face.radiosity = face.irradiance.map(|e| 30.0 + 0.75 * e);
-        }
-        assert!((of(&mesh, 0) - 0.75).abs() < 1e-4);
-        // An emitter under uniform light tells nothing.
-        for face in &mut mesh.faces {
-            face.irradiance = [1.0; 3];
-            face.radiosity = [30.75; 3];
-        }
-        assert_eq!(of(&mesh, 0), 0.0);
     }
 }

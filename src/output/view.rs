@@ -2,7 +2,8 @@
 
 use super::camera::PinHole;
 use super::panel::Panels;
-use super::smoothing::{Smoothing, reflectance};
+use super::panel_reflectance::reflectance;
+use super::smoothing::Smoothing;
 use super::{Pixel, SolvedMesh};
 use crate::embree::{CommittedScene, Device, EmbreeError, Hit, Ray};
 use crate::scene::Side;

@@ -2,7 +2,9 @@
 //! line, and what is sound is written out again as plain text that `tobj` can parse without
 //! surprises (absolute indices, no groups, no materials, no lines or points, ASCII only).
 
+use super::corner_indices::{CornerIndices, List};
 use super::error::{DefectLog, MAX_ELEMENTS, Reason};
+use super::foreign_file::foreign_kind;
 use super::statement::{Statement, decode, for_each_statement, number};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -54,22 +56,6 @@ const SILENT: [&[u8]; 16] = [
     b"call",
 ];
 
-/// Beginnings of files that are often mistaken for OBJ.
-const FOREIGN: [(&[u8], &str); 12] = [
-    (b"\x89PNG", "it is a PNG image"),
-    (b"\xff\xd8\xff", "it is a JPEG image"),
-    (b"ply\n", "it is a PLY mesh"),
-    (b"ply\r", "it is a PLY mesh"),
-    (b"glTF", "it is a binary glTF scene"),
-    (b"solid", "it is an STL mesh"),
-    (b"Kaydara FBX", "it is an FBX scene"),
-    (b"BLENDER", "it is a Blender file"),
-    (b"PK\x03\x04", "it is a ZIP archive"),
-    (b"\x1f\x8b", "it is compressed with gzip"),
-    (b"\xff\xfe", "it is UTF-16 text; save it as UTF-8"),
-    (b"\xfe\xff", "it is UTF-16 text; save it as UTF-8"),
-];
-
 /// Scans `bytes`; defects go to `defects`.
 pub(super) fn scan_obj(bytes: &[u8], defects: &mut DefectLog) -> ObjScan {
     if let Some(what) = foreign_kind(bytes) {
@@ -78,10 +64,9 @@ pub(super) fn scan_obj(bytes: &[u8], defects: &mut DefectLog) -> ObjScan {
     }
     let mut scanner = Scanner {
         scan: ObjScan::default(),
-        counts: [0; 3],
+        indices: CornerIndices::default(),
         current_material: None,
         material_index: BTreeMap::new(),
-        forward: Vec::new(),
         corners: Vec::new(),
         known_statements: 0,
         statements: 0,
@@ -90,35 +75,11 @@ pub(super) fn scan_obj(bytes: &[u8], defects: &mut DefectLog) -> ObjScan {
     scanner.finish(defects)
 }
 
-fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
-    FOREIGN
-        .iter()
-        .find(|(magic, _)| bytes.starts_with(magic))
-        .map(|&(_, what)| what)
-        .or_else(|| {
-            bytes
-                .contains(&0)
-                .then_some("it has binary content (a NUL byte)")
-        })
-}
-
-/// The lists that a corner refers to, in the order of the corner's parts.
-const LISTS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
-
-/// A positive index beyond what had been read when it was met; the element may still follow.
-struct Forward {
-    line: usize,
-    list: usize,
-    index: i64,
-}
-
 struct Scanner {
     scan: ObjScan,
-    /// Elements read so far, per list of [`LISTS`].
-    counts: [usize; 3],
+    indices: CornerIndices,
     current_material: Option<u32>,
     material_index: BTreeMap<String, u32>,
-    forward: Vec<Forward>,
     /// Corners of the face at hand: 1-based vertex and texture coordinate, where given.
     corners: Vec<(i64, Option<i64>)>,
     known_statements: usize,
@@ -157,7 +118,7 @@ impl Scanner {
 
     /// `v x y z`, `v x y z w` or `v x y z r g b` (a vertex colour, ignored).
     fn vertex(&mut self, statement: &Statement, defects: &mut DefectLog) {
-        self.counts[0] += 1;
+        self.indices.add(List::Vertex);
         let expected = "3 coordinates (and a weight or a colour)";
         let Some(values) = numbers(statement, &[3, 4, 6, 7], expected, defects) else {
             return;
@@ -178,7 +139,7 @@ impl Scanner {
 
     /// `vt u`, `vt u v` or `vt u v w`.
     fn texture_coordinate(&mut self, statement: &Statement, defects: &mut DefectLog) {
-        self.counts[1] += 1;
+        self.indices.add(List::TextureCoordinate);
         let Some(values) = numbers(statement, &[1, 2, 3], "1 to 3 coordinates", defects) else {
             return;
         };
@@ -191,7 +152,7 @@ impl Scanner {
 
     /// `vn x y z`: checked and counted, but the facing comes from the winding.
     fn normal(&mut self, statement: &Statement, defects: &mut DefectLog) {
-        self.counts[2] += 1;
+        self.indices.add(List::Normal);
         numbers(statement, &[3], "3 coordinates", defects);
     }
 
@@ -214,7 +175,7 @@ impl Scanner {
         let mut count = 0;
         for word in statement.values() {
             count += 1;
-            match self.corner(word, statement.line, defects) {
+            match self.indices.corner(word, statement.line, defects) {
                 Some(corner) => self.corners.push(corner),
                 None => sound = false,
             }
@@ -245,52 +206,6 @@ impl Scanner {
         clean.push('\n');
     }
 
-    /// A corner as absolute 1-based indices.
-    fn corner(
-        &mut self,
-        word: &[u8],
-        line: usize,
-        defects: &mut DefectLog,
-    ) -> Option<(i64, Option<i64>)> {
-        let Some(written) = corner_parts(word) else {
-            defects.add(Some(line), Reason::BadCorner(decode(word)));
-            return None;
-        };
-        let mut absolute = [None; 3];
-        let mut sound = true;
-        for (list, index) in written.into_iter().enumerate() {
-            if let Some(index) = index {
-                absolute[list] = self.resolve(list, index, line, defects);
-                sound &= absolute[list].is_some();
-            }
-        }
-        let vertex = absolute[0]?;
-        sound.then_some((vertex, absolute[1]))
-    }
-
-    fn resolve(
-        &mut self,
-        list: usize,
-        index: i64,
-        line: usize,
-        defects: &mut DefectLog,
-    ) -> Option<i64> {
-        let count = self.counts[list];
-        // Counts are bounded by the file's length, which fits i64.
-        let signed_count = count as i64;
-        if index > signed_count {
-            self.forward.push(Forward { line, list, index });
-            Some(index)
-        } else if index > 0 {
-            Some(index)
-        } else if index < 0 && index >= -signed_count {
-            Some(signed_count + index + 1)
-        } else {
-            defects.add(Some(line), out_of_range(list, index, count));
-            None
-        }
-    }
-
     fn use_material(&mut self, statement: &Statement, defects: &mut DefectLog) {
         let name = statement.name();
         if name.is_empty() {
@@ -312,15 +227,7 @@ impl Scanner {
     }
 
     fn finish(mut self, defects: &mut DefectLog) -> ObjScan {
-        for forward in std::mem::take(&mut self.forward) {
-            let count = self.counts[forward.list];
-            if forward.index > count as i64 {
-                defects.add(
-                    Some(forward.line),
-                    out_of_range(forward.list, forward.index, count),
-                );
-            }
-        }
+        self.indices.finish(defects);
         let faces = self.scan.face_lines.len();
         if self.statements == 0 {
             defects.add(None, Reason::Empty);
@@ -333,8 +240,11 @@ impl Scanner {
             defects.add(None, Reason::NoFaces);
         }
         for (kind, count) in [
-            ("vertices", self.counts[0]),
-            ("texture coordinates", self.counts[1]),
+            ("vertices", self.indices.count(List::Vertex)),
+            (
+                "texture coordinates",
+                self.indices.count(List::TextureCoordinate),
+            ),
             ("faces", faces),
         ] {
             if count > MAX_ELEMENTS {
@@ -343,27 +253,6 @@ impl Scanner {
         }
         defects.sort_by_line();
         self.scan
-    }
-}
-
-/// The indices of `v`, `v/vt`, `v//vn` or `v/vt/vn` as written; a part other than the first may be
-/// left out.
-fn corner_parts(word: &[u8]) -> Option<[Option<i64>; 3]> {
-    let mut written = [None; 3];
-    for (list, part) in word.split(|&b| b == b'/').enumerate() {
-        let slot = written.get_mut(list)?;
-        if !part.is_empty() {
-            *slot = Some(std::str::from_utf8(part).ok()?.parse().ok()?);
-        }
-    }
-    written[0].map(|_| written)
-}
-
-fn out_of_range(list: usize, index: i64, count: usize) -> Reason {
-    Reason::IndexOutOfRange {
-        kind: LISTS[list],
-        index,
-        count,
     }
 }
 
