@@ -53,9 +53,13 @@ const PAPER: [SuiteCase; 6] = [
     case("f", 5.0e-7, 8, 3, 7),
 ];
 
-/// The cases of a suite: `ci` or `paper`.
+/// A second on one core: enough to see whether a check itself works.
+const SMOKE: [SuiteCase; 1] = [case("d", 1.0e-3, 8, 2, 1)];
+
+/// The cases of a suite: `smoke`, `ci` or `paper`.
 pub fn suite(name: &str) -> Option<&'static [SuiteCase]> {
     match name {
+        "smoke" => Some(&SMOKE),
         "ci" => Some(&CI),
         "paper" => Some(&PAPER),
         _ => None,
