@@ -58,7 +58,8 @@ fn corners_of_glb(bytes: &[u8]) -> Vec<Vec3> {
 fn what_is_up_is_up_in_the_glb() {
     let mesh = mesh();
     let expected: Vec<DVec3> = mesh.faces.iter().flat_map(|f| mesh.corners(f)).collect();
-    let turns: [(UpAxis, fn(DVec3) -> DVec3); 2] = [
+    type Turn = fn(DVec3) -> DVec3;
+    let turns: [(UpAxis, Turn); 2] = [
         (UpAxis::Z, |p| DVec3::new(p.x, p.z, -p.y)),
         (UpAxis::X, |p| DVec3::new(-p.y, p.x, p.z)),
     ];
