@@ -4,6 +4,7 @@ use super::args::AuditCommand;
 use super::error::CliError;
 use super::file_head::FileHead;
 use super::progress::Progress;
+use super::result_paths::check_result_paths;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_command::with_threads;
@@ -17,6 +18,7 @@ use std::time::Instant;
 /// Solves, audits, reports.
 pub fn run(session: &Session, command: &AuditCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
+    check_result_paths(&command.json)?;
     with_threads(command.scene.reading.threads, || {
         audit_and_report(session, command, &config)
     })

@@ -4,6 +4,7 @@ use super::args::{BenchCommand, BenchFormat, SuiteArg};
 use super::callgrind::count_instructions;
 use super::error::CliError;
 use super::logs;
+use super::result_paths::check_result_paths;
 use super::scene_source::read_scene;
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
@@ -27,11 +28,12 @@ const RUNS_AGAIN: u32 = 3;
 
 /// Runs the suite, then records or checks.
 pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
+    check_result_paths(&command.record)?;
     // A baseline that cannot be read is better known before the suite has run.
     let baseline = command.check.as_deref().map(read_baseline).transpose()?;
     let mut now = with_threads(command.threads, || run_suite(session, command.suite))?;
     if !command.no_instructions {
-        now.instructions = count_instructions()?;
+        now.instructions = count_instructions(session)?;
     }
     report(command.format, &now);
     if let Some(path) = &command.record {

@@ -4,6 +4,7 @@ use super::args::CompareCommand;
 use super::error::CliError;
 use super::file_head::FileHead;
 use super::progress::Progress;
+use super::result_paths::check_result_paths;
 use super::scene_source::{load_named, prepare};
 use super::session::Session;
 use super::solve_command::with_threads;
@@ -45,6 +46,11 @@ struct SceneSettings {
 /// Runs the comparison and writes what was asked for; the table goes to standard output.
 pub fn run(session: &Session, command: &CompareCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
+    check_result_paths(
+        [&command.csv, &command.json, &command.markdown]
+            .into_iter()
+            .flatten(),
+    )?;
     with_threads(command.reading.threads, || {
         compare_all(session, command, &config)
     })
@@ -59,10 +65,12 @@ fn compare_all(
     let mut rows = Vec::new();
     let mut scenes = Vec::new();
     let mut embree = String::new();
-    for name in &command.scenes {
+    // A scene that cannot be read is better known before the first is solved than after the last but one.
+    let read = |name: &String| load_named(name.as_ref(), &command.reading);
+    let loaded = (command.scenes.iter().map(read)).collect::<Result<Vec<_>, _>>()?;
+    for (name, scene) in command.scenes.iter().zip(loaded) {
         let table = name.strip_prefix("builtin:").and_then(table_settings);
         let scene_config = settings_for(command, config, table);
-        let scene = load_named(name.as_ref(), &command.reading)?;
         let prepared = prepare(scene, &command.reading, config.seed)?
             .with_guarantees(Technique::Blockers, &command.solve.occluders.config());
         let passes = command

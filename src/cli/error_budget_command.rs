@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::error_budget_args::ErrorBudgetCommand;
 use super::file_head::FileHead;
 use super::progress::Progress;
+use super::result_paths::check_result_paths;
 use super::scene_source::{load_scene, prepare};
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
@@ -17,6 +18,7 @@ use std::sync::Arc;
 /// Prints the table.
 pub fn run(session: &Session, command: &ErrorBudgetCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
+    check_result_paths(&command.json)?;
     with_threads(command.scene.reading.threads, || {
         budget(session, command, &config)
     })

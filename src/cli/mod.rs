@@ -34,6 +34,7 @@ mod reference_command;
 mod reference_progress;
 mod render;
 mod report_command;
+mod result_paths;
 mod run;
 mod scene_source;
 mod session;

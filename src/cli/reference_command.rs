@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::logs;
 use super::reference_args::ReferenceCommand;
 use super::reference_progress::ReferenceProgress;
+use super::result_paths::check_result_paths;
 use super::scene_source::load_scene;
 use super::session::Session;
 use super::solve_args::SceneArgs;
@@ -25,6 +26,7 @@ pub fn run(session: &Session, command: &ReferenceCommand) -> Result<(), CliError
         seed: command.seed,
     };
     config.validate().map_err(ReferenceError::from)?;
+    check_result_paths([&command.out])?;
     with_threads(command.scene.reading.threads, || {
         measure_and_write(session, command, &config)
     })

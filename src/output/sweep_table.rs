@@ -39,6 +39,20 @@ pub struct SweepKey {
 impl SweepKey {
     /// Version of the layout.
     pub const FORMAT: u32 = 1;
+
+    /// In what `found` differs from this, for a message.
+    fn difference(&self, found: &Self) -> String {
+        let [here, there] = [self, found].map(|key| serde_json::json!(key));
+        let names = here
+            .as_object()
+            .into_iter()
+            .flat_map(|object| object.keys());
+        let different: Vec<String> = names
+            .filter(|&name| here[name] != there[name])
+            .map(|name| format!("{name} is {} there and {} here", there[name], here[name]))
+            .collect();
+        different.join("; ")
+    }
 }
 
 /// What `sweep.json` says beside its rows.
@@ -207,8 +221,8 @@ pub fn read_sweep(path: &Path, key: &SweepKey) -> Result<Vec<SweepRow>, OutputEr
     let kept: Kept = serde_json::from_slice(&bytes).map_err(|e| wrong(e.to_string()))?;
     if kept.key != *key {
         return Err(wrong(format!(
-            "its rows are of {:?}, this sweep is of {key:?}",
-            kept.key
+            "its rows are of another sweep: {}",
+            key.difference(&kept.key)
         )));
     }
     let mut rows: Vec<SweepRow> = Vec::with_capacity(kept.rows.len());

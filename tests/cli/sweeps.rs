@@ -249,9 +249,11 @@ fn a_sweep_measures_its_own_reference_and_goes_on() {
     ] {
         assert_ne!(bad, good);
         folder.write("results/sweep.json", &bad);
-        sweep("--repeat 1 --epsilon 1e-3 --resume")
-            .ends_with(2, "a bad table")
-            .says(&["sweep.json"]);
+        let ended = sweep("--repeat 1 --epsilon 1e-3 --resume");
+        ended.ends_with(2, "a bad table").says(&["sweep.json"]);
+        if bad.contains("\"threads\": 9") {
+            ended.says(&["another sweep: threads is 9"]);
+        }
         assert_eq!(
             fs::read(folder.path("results/sweep.json")).unwrap(),
             bad.as_bytes()

@@ -30,6 +30,26 @@ fn a_folder_that_takes_no_files() {
     }
 }
 
+/// Minutes of work are not done for a file that has no place.
+#[test]
+fn a_report_that_has_no_place_is_refused_before_the_work() {
+    let folder = Folder::new();
+    write_room(&folder);
+    for command in [
+        "audit room.obj --json none/a.json",
+        "compare room.obj --csv none/a.csv",
+        "compare room.obj --json a.json --markdown .",
+        "reference room.obj --out none/a.json",
+        "bench --suite paper --record none/a.json",
+    ] {
+        // Nothing has been said of any scene yet.
+        let ended = folder.line(command);
+        ended.ends_with(3, command).says(&["cannot write"]);
+        assert_eq!(ended.stdout, "", "{command}");
+    }
+    assert!(!folder.path("a.json").exists());
+}
+
 #[test]
 fn a_folder_in_the_place_of_a_result() {
     let folder = Folder::new();

@@ -13,10 +13,11 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-/// Share by which the reflected power of the whole scene may change.
+/// Share by which the reflected power of the whole scene may change, where the solution's bias is small.
 const POWER: f64 = 1.0e-3;
 
-/// What the differences of faces may be of the solution's own error, both as relative RMS errors.
+/// What the differences of faces may be of the solution's own error, both as relative RMS errors, and what the change of
+/// power may be of its bias: another tree above the surfaces has another.
 const SHARE_OF_ERROR: f64 = 0.5;
 
 /// A built-in scene whose vertices are mapped, every digit written.
@@ -181,7 +182,8 @@ fn compare(
             100.0 * apart.bias
         );
         println!("{line}");
-        if apart.relative_rms > SHARE_OF_ERROR * error || apart.bias.abs() > POWER {
+        let power = POWER.max(SHARE_OF_ERROR * own.bias.abs());
+        if apart.relative_rms > SHARE_OF_ERROR * error || apart.bias.abs() > power {
             found.push(line);
         }
     }
