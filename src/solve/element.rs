@@ -78,7 +78,7 @@ impl Element {
     /// The convex set that stands for this element in shafts: its corners, or its box.
     pub fn shaft_bounds(&self) -> ElementBounds {
         match &self.shape {
-            Shape::Triangle(corners) => ElementBounds::from_polygon(corners),
+            Shape::Triangle(corners) => ElementBounds::from_triangle(*corners, self.bounds),
             _ => ElementBounds::from_box(self.bounds),
         }
     }

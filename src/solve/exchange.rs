@@ -7,10 +7,10 @@ use super::config::Technique;
 use super::element::Element;
 use super::form_factor::{Arrival, Flatness, Space, arrival};
 use super::pair::{Known, Receiver, Source, exchange_key};
-use super::query_schedule::Queries;
-use super::task::Task;
+use super::query_schedule::{Evidence, Occasion, Queries};
+use super::task::{Task, packets_of_exchange};
 use crate::math::hash_u64;
-use crate::visibility::{AllClear, LEAST_COSINE, SampleCount, SampledVisibility, Verdict};
+use crate::visibility::{AllClear, LEAST_COSINE, SampledVisibility, Verdict};
 
 /// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
 /// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
@@ -72,11 +72,24 @@ impl<const C: usize> Task<'_, '_, C> {
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
             return Next::SplitReceiver;
         }
-        let queries = match &self.prover {
-            Some(prover) => prover.plan_before_exchange(known.knowledge),
+        let packets = packets_of_exchange(self.pass.config.rays);
+        let queries = match &mut self.prover {
+            Some(prover) => prover.plan_before_exchange(known.knowledge, packets),
             None => Queries::None,
         };
-        let known = self.prove(source, receiver, known, queries, 1.0);
+        let known = self.prove(
+            source,
+            receiver,
+            known,
+            queries,
+            Occasion::Exchange(packets),
+        );
+        if known.knowledge.verdict == Verdict::Occluded {
+            self.observe(Evidence::Blocked);
+        }
+        if known.ends_the_pair(self.pass.config) {
+            return Next::Done;
+        }
         let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
             (Technique::Unoccluded, _) => 1.0,
             (_, Verdict::Unknown) => {
@@ -91,6 +104,7 @@ impl<const C: usize> Task<'_, '_, C> {
                 }
                 match verdict {
                     Verdict::Visible => {
+                        self.observe(Evidence::Clear);
                         self.outcome.statistics.exchanges_visible += 1;
                         self.visible_share(source, &receiver.element, carried)
                     }
@@ -118,6 +132,7 @@ impl<const C: usize> Task<'_, '_, C> {
         known: Known,
     ) -> Option<f32> {
         let mut sampled = self.sample_where_cheapest(source, &receiver.element, known, 0);
+        self.observe(Evidence::of(&sampled));
         if self.refines_if_partial(&receiver.element, carried) {
             if !(sampled.all_blocked || sampled.all_clear) {
                 return None;
@@ -170,7 +185,7 @@ impl<const C: usize> Task<'_, '_, C> {
         known: Known,
         round: u64,
     ) -> SampledVisibility {
-        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        let rays = self.pass.config.rays;
         if self.pass.config.technique == Technique::Blockers {
             let list = self
                 .prover
@@ -211,7 +226,7 @@ impl<const C: usize> Task<'_, '_, C> {
         {
             return 1.0;
         }
-        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        let rays = self.pass.config.rays;
         let first = self.pass.sample(AllClear, source, receiver, rays, 0);
         if (first.all_clear || first.all_blocked)
             && first.rays > 0
@@ -232,7 +247,7 @@ impl<const C: usize> Task<'_, '_, C> {
         };
         let mut segments = std::mem::take(&mut self.segments);
         segments.clear();
-        let rays = SampleCount::of_exchange(self.pass.config.rays);
+        let rays = self.pass.config.rays;
         // Both sets that a technique without proofs might cast.
         for round in 0..2 {
             let recording = Recording {

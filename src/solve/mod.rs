@@ -30,6 +30,7 @@ mod planted;
 mod prepared;
 mod prover;
 mod push_pull;
+mod query_record;
 mod query_schedule;
 mod radiosity;
 mod sampled_element;

@@ -18,7 +18,7 @@ pub trait Observer: Sync {
     fn counts_rays(&self) -> bool {
         false
     }
-    /// Rays were cast through Embree to find what reaches `receiver`, evidence probes included.
+    /// Rays were cast through Embree to find what reaches `receiver`.
     fn rays_cast(&self, _receiver: ElementName, _rays: u32) {}
     /// True when the solve shall stop; asked often.
     fn interrupted(&self) -> bool {

@@ -84,7 +84,8 @@ pub fn run_pass<const C: usize>(
             .enumerate()
             .filter(|(owner, _)| owner.is_multiple_of(FIRST_TASKS) == is_first)
             .map(|(owner, gatherer)| {
-                let task = Task::new(&pass_data, gatherer, schedule.clone()).run(owner);
+                let mut task = Task::new(&pass_data, gatherer, schedule).run(owner);
+                task.schedule = task.schedule.filter(|_| is_first);
                 context
                     .observer
                     .task_done(task.outcome.statistics.exchanges);
@@ -93,7 +94,10 @@ pub fn run_pass<const C: usize>(
             .collect()
     };
     let mut outcomes = run_some(true, &QuerySchedule::new(config.technique));
-    let learned = QuerySchedule::after(config.technique, outcomes.iter().map(|t| &t.schedule));
+    let learned = QuerySchedule::after(
+        config.technique,
+        outcomes.iter().filter_map(|t| t.schedule.as_ref()),
+    );
     outcomes.extend(run_some(false, &learned));
     // Summed in order, so that the sums have the same bits at any number of threads.
     outcomes.sort_unstable_by_key(|task| task.owner);

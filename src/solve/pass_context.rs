@@ -12,7 +12,7 @@ use super::sampled_element::{ReceiverSurface, SourceSurface};
 use crate::cluster::Hierarchy;
 use crate::embree::CommittedScene;
 use crate::scene::Scene;
-use crate::visibility::{SampleCount, SampledVisibility, SegmentTest, sample_visibility};
+use crate::visibility::{SampledVisibility, SegmentTest, sample_visibility};
 use glam::Vec3;
 use pulp::Arch;
 
@@ -70,7 +70,7 @@ impl<const C: usize> Pass<'_, C> {
         test: impl SegmentTest,
         source: &Source,
         receiver: &Element,
-        samples: SampleCount,
+        rays: u32,
         round: u64,
     ) -> SampledVisibility {
         let context = self.context;
@@ -97,7 +97,7 @@ impl<const C: usize> Pass<'_, C> {
                 frames: context.frames,
                 area_before: context.area_before,
             },
-            samples,
+            rays,
             key,
             self.oracle.tau,
         )

@@ -6,7 +6,7 @@
 use super::config::{SolveConfig, Stride, Technique};
 use super::element::Element;
 use super::guarantees::Guarantees;
-use super::query_schedule::{Evidence, Queries, QuerySchedule};
+use super::query_schedule::{Evidence, Occasion, Queries, QuerySchedule};
 use super::statistics::PassStatistics;
 use crate::visibility::{
     BlockerList, OcclusionScratch, SurvivorList, Verdict, VisibilityQuery, VisibilityScratch,
@@ -72,6 +72,18 @@ struct Remaining {
     is_short: Option<bool>,
 }
 
+impl Remaining {
+    /// True where the list holds few polygons, which are then prepared.
+    fn is_short(&mut self, guarantees: &Guarantees) -> bool {
+        *self.is_short.get_or_insert_with(|| {
+            self.survivors.len() <= MOST_BLOCKERS
+                && self
+                    .blockers
+                    .fill(&guarantees.scene, &self.survivors, MOST_BLOCKERS)
+        })
+    }
+}
+
 /// The guaranteed tests of one task.
 pub struct Prover<'a> {
     guarantees: &'a Guarantees,
@@ -92,7 +104,7 @@ impl<'a> Prover<'a> {
     pub fn new(
         guarantees: Option<&'a Guarantees>,
         config: &SolveConfig,
-        schedule: QuerySchedule,
+        schedule: &QuerySchedule,
     ) -> Option<Self> {
         let guarantees = guarantees.filter(|_| config.technique.proves_visibility())?;
         let mut prover = Self {
@@ -104,14 +116,14 @@ impl<'a> Prover<'a> {
             last_occluder: None,
             occlusion: OcclusionScratch::default(),
             visibility: VisibilityScratch::default(),
-            schedule,
+            schedule: schedule.clone(),
         };
         prover.make_list(0);
         prover.lists[0].survivors = guarantees.whole_scene.clone();
         Some(prover)
     }
 
-    /// What to ask about a pair that is about to be split, and whether to look for evidence first.
+    /// What to ask about a pair that is about to be split.
     /// `expected` is how many packets of eight rays are likely to be cast below it.
     pub fn plan_before_split(
         &mut self,
@@ -134,12 +146,18 @@ impl<'a> Prover<'a> {
     }
 
     /// What to ask about a pair that is about to exchange.
-    pub fn plan_before_exchange(&self, knowledge: Knowledge) -> Queries {
+    /// `packets` of eight rays are what a proof would save.
+    pub fn plan_before_exchange(&mut self, knowledge: Knowledge, packets: f32) -> Queries {
         match self.stride {
             _ if knowledge.verdict != Verdict::Unknown => Queries::None,
             Stride::Every(_) => Queries::Both,
-            Stride::Auto => Queries::None,
+            Stride::Auto => self.schedule.before_exchange(packets),
         }
+    }
+
+    /// Takes note of what an exchange was found to be.
+    pub fn observe(&mut self, evidence: Evidence) {
+        self.schedule.observe(evidence);
     }
 
     /// Asks for guarantees about a pair.
@@ -149,11 +167,13 @@ impl<'a> Prover<'a> {
         receiver: &Element,
         knowledge: Knowledge,
         queries: Queries,
-        expected: f32,
+        occasion: Occasion,
         statistics: &mut PassStatistics,
     ) -> Proof {
         let mut known = knowledge;
-        known.asked_at = expected;
+        if let Occasion::Split(expected) = occasion {
+            known.asked_at = expected;
+        }
         if queries == Queries::None {
             return Proof::none(known);
         }
@@ -167,7 +187,7 @@ impl<'a> Prover<'a> {
                 &mut self.occlusion,
             );
             self.schedule.learn_occlusion(
-                expected,
+                occasion,
                 answer.occluder.is_some(),
                 answer.nodes + answer.tests,
             );
@@ -193,35 +213,26 @@ impl<'a> Prover<'a> {
             &b,
             &above[next - 1].survivors,
             &mut below[0].survivors,
-            self.schedule.limits(queries, expected),
+            self.schedule.limits(queries, occasion),
             &mut self.visibility,
         );
         below[0].is_short = None;
+        let visible = answer.verdict == Verdict::Visible;
+        let success = visible || queries == Queries::Shorten && below[0].is_short(self.guarantees);
         self.schedule
-            .learn_visibility(expected, answer.verdict == Verdict::Visible, answer.nodes);
+            .learn_walk(queries, occasion, success, answer.nodes);
         known.list = next as u32;
         known.verdict = answer.verdict;
-        statistics.visible_claims += u64::from(answer.verdict == Verdict::Visible);
+        statistics.visible_claims += u64::from(visible);
         Proof::none(known)
-    }
-
-    /// What is left to ask once probes have spoken.
-    pub fn after_evidence(&mut self, evidence: Evidence, expected: f32) -> Queries {
-        self.schedule.after_evidence(evidence, expected)
     }
 
     /// The few polygons that may block a pair, or `None` if they are many.
     pub fn blockers(&mut self, knowledge: Knowledge) -> Option<&BlockerList> {
         let remaining = &mut self.lists[knowledge.list as usize];
-        let is_short = *remaining.is_short.get_or_insert_with(|| {
-            remaining.survivors.len() <= MOST_BLOCKERS
-                && remaining.blockers.fill(
-                    &self.guarantees.scene,
-                    &remaining.survivors,
-                    MOST_BLOCKERS,
-                )
-        });
-        is_short.then_some(&remaining.blockers)
+        remaining
+            .is_short(self.guarantees)
+            .then_some(&remaining.blockers)
     }
 
     /// What was learned of queries.

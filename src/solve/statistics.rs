@@ -16,7 +16,7 @@ pub struct PassStatistics {
     pub exchanges_blocked: u64,
     /// Those whose rays were all clear.
     pub exchanges_sampled_clear: u64,
-    /// Rays cast through Embree, evidence probes included.
+    /// Rays cast through Embree.
     pub rays: u64,
     /// Those that were blocked.
     pub rays_blocked: u64,

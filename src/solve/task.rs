@@ -7,17 +7,17 @@ use super::element::Element;
 use super::pair::{Known, Receiver, Source, exchange_key};
 use super::pass_context::Pass;
 use super::prover::{Proof, Prover};
-use super::query_schedule::{Evidence, Queries, QuerySchedule};
+use super::query_schedule::{Evidence, Occasion, Queries, QuerySchedule};
 use super::radiosity::Gatherer;
 use super::statistics::PassStatistics;
 use crate::cluster::NodeKind;
 use crate::math::NodeId;
-use crate::visibility::{SampleCount, SampledVisibility, Verdict};
+use crate::visibility::{SampledVisibility, Verdict};
 use glam::Vec3;
 
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
 /// set of samples.
-fn packets_of_exchange(rays: u32) -> f32 {
+pub(super) fn packets_of_exchange(rays: u32) -> f32 {
     1.2 * rays.div_ceil(8) as f32
 }
 
@@ -55,7 +55,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     pub(super) fn new(
         pass: &'a Pass<'a, C>,
         gatherer: &'g mut Gatherer<C>,
-        schedule: QuerySchedule,
+        schedule: &QuerySchedule,
     ) -> Self {
         let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
         Self {
@@ -131,12 +131,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         let (from, to) = (&source.element, &receiver.element);
         let expected = self.pass.oracle.expected_exchanges(from, to, greatest)
             * packets_of_exchange(self.pass.config.rays);
-        let mut queries = prover.plan_before_split(from, to, known.knowledge, expected);
-        if queries == Queries::Probe {
-            let evidence = self.probe(source, to);
-            queries = self.after(evidence, expected);
-        }
-        self.prove(source, receiver, known, queries, expected)
+        let queries = prover.plan_before_split(from, to, known.knowledge, expected);
+        self.prove(source, receiver, known, queries, Occasion::Split(expected))
     }
 
     /// Asks the prover, if there is one, and keeps a new claim.
@@ -146,7 +142,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         receiver: &Receiver,
         known: Known,
         queries: Queries,
-        expected: f32,
+        occasion: Occasion,
     ) -> Known {
         let Some(prover) = self.prover.as_mut().filter(|_| queries != Queries::None) else {
             return known;
@@ -156,7 +152,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             &receiver.element,
             known.knowledge,
             queries,
-            expected,
+            occasion,
             &mut self.outcome.statistics,
         );
         let is_new = proof.knowledge.verdict != known.knowledge.verdict;
@@ -179,21 +175,10 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    /// What eight rays say of a pair.
-    fn probe(&mut self, source: &Source, receiver: &Element) -> Evidence {
-        let sampled = self.pass.sample(
-            self.pass.context.embree,
-            source,
-            receiver,
-            SampleCount::PROBE,
-            0,
-        );
-        self.count_rays(receiver, &sampled);
-        match sampled.rays {
-            0 => Evidence::Dark,
-            n if sampled.rays_blocked == n => Evidence::Blocked,
-            _ if sampled.rays_blocked == 0 => Evidence::Clear,
-            _ => Evidence::Mixed,
+    /// Lets the schedule know what an exchange was found to be.
+    pub(super) fn observe(&mut self, evidence: Evidence) {
+        if let Some(prover) = &mut self.prover {
+            prover.observe(evidence);
         }
     }
 
@@ -204,13 +189,6 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         if self.counts_rays && sampled.rays > 0 {
             let observer = self.pass.context.observer;
             observer.rays_cast(receiver.name(), sampled.rays);
-        }
-    }
-
-    fn after(&mut self, evidence: Evidence, expected: f32) -> Queries {
-        match &mut self.prover {
-            Some(prover) => prover.after_evidence(evidence, expected),
-            None => Queries::None,
         }
     }
 }

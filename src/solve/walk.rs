@@ -18,7 +18,8 @@ const VISITS_BETWEEN_QUESTIONS: u32 = 4096;
 pub(super) struct TaskOutcome {
     pub(super) owner: usize,
     pub(super) outcome: PassOutcome,
-    pub(super) schedule: QuerySchedule,
+    /// What it learned of queries.
+    pub(super) schedule: Option<QuerySchedule>,
 }
 
 impl<const C: usize> Task<'_, '_, C> {
@@ -31,12 +32,10 @@ impl<const C: usize> Task<'_, '_, C> {
         };
         let greatest = self.greatest(&source);
         self.walk(&source, &receiver, greatest, Known::NOTHING);
-        let technique = self.pass.config.technique;
-        let unlearned = || QuerySchedule::new(technique);
         TaskOutcome {
             owner,
             outcome: self.outcome,
-            schedule: self.prover.map_or_else(unlearned, Prover::into_schedule),
+            schedule: self.prover.map(Prover::into_schedule),
         }
     }
 

@@ -42,6 +42,23 @@ impl ElementBounds {
         Self::with_corners(&aabb.corners(), aabb, BoundsShape::Box)
     }
 
+    /// A triangle whose axis-aligned box is known.
+    #[inline]
+    pub fn from_triangle([p, q, r]: [Vec3; 3], aabb: Aabb) -> Self {
+        let lanes = |p: f32, q: f32, r: f32| [p, q, r, r, r, r, r, r];
+        Self {
+            x: lanes(p.x, q.x, r.x),
+            y: lanes(p.y, q.y, r.y),
+            z: lanes(p.z, q.z, r.z),
+            aabb,
+            box_centre: aabb.centre(),
+            half: aabb.half_extent(),
+            centre: (p + q + r) / 3.0,
+            count: 3,
+            shape: BoundsShape::Polygon,
+        }
+    }
+
     /// The convex planar polygon with these 3 to 8 corners, in order around it.
     ///
     /// # Panics

@@ -124,7 +124,7 @@ fn corners_of(polygon: &StoredPolygon) -> [DVec3; 3] {
 
 /// Depth up to which a point of the bounds stands for points that are not deeper than `tau`.
 #[inline(always)]
-fn harmless_depth(tolerance: &Tolerance) -> f64 {
+pub(super) fn harmless_depth(tolerance: &Tolerance) -> f64 {
     f64::from(tolerance.tau) - 1.001 * f64::from(tolerance.nesting)
 }
 

@@ -12,6 +12,7 @@
 use super::bounds::ElementBounds;
 use super::crossing::{blocks_centre_segment, may_block};
 use super::faults::Faults;
+use super::plane_octet::PlaneOctet;
 use super::scene_tree::SceneTree;
 use super::shaft::Shaft;
 use super::shaft_planes::push_planes;
@@ -69,6 +70,7 @@ const SHORT_LIST: usize = 4;
 #[derive(Clone, Debug, Default)]
 pub struct VisibilityScratch {
     stack: Vec<Pending>,
+    wide: Option<[WideCorners; 2]>,
 }
 
 /// A child still to be opened, and where its box is found.
@@ -133,7 +135,8 @@ impl<'a> VisibilityQuery<'a> {
             outgoing,
             limits,
             stack: &mut scratch.stack,
-            wide: None,
+            wide: &mut scratch.wide,
+            depth: PlaneOctet::depth(&self.scene.tolerance),
             blocking_leaves: 0,
             answer: VisibilityAnswer {
                 verdict: Verdict::Unknown,
@@ -156,7 +159,9 @@ struct Walk<'a> {
     limits: WalkLimits,
     stack: &'a mut Vec<Pending>,
     /// The elements in f64, once a polygon has come up.
-    wide: Option<[WideCorners; 2]>,
+    wide: &'a mut Option<[WideCorners; 2]>,
+    /// Depth beside a plane for [`PlaneOctet::part`].
+    depth: f32,
     blocking_leaves: u32,
     answer: VisibilityAnswer,
 }
@@ -172,6 +177,7 @@ impl WithSimd for Walk<'_> {
         let mut shaft = Shaft::new(self.a, self.b, tolerance);
         self.outgoing.clear();
         self.stack.clear();
+        *self.wide = None;
         if self.blocked_as_above() {
             self.hand_down(&shaft, 0);
             return self.answer;
@@ -335,7 +341,11 @@ impl Walk<'_> {
     fn open_leaf(&mut self, shaft: &Shaft, leaf: ChildRef, lanes: u32) -> bool {
         let scene = self.query.scene;
         self.answer.nodes += 1;
-        let mut candidates = shaft.meets_triangles(&scene.octets[leaf.index()]) & lanes;
+        let parted = scene.planes[leaf.index()].part(self.a, self.b, self.depth) & lanes;
+        if parted == 0 {
+            return true;
+        }
+        let mut candidates = shaft.meets_triangles(&scene.octets[leaf.index()], parted);
         if candidates == 0 {
             return true;
         }

@@ -8,6 +8,7 @@ mod faults;
 mod full_visibility;
 mod occluder_tree;
 mod occlusion;
+mod plane_octet;
 mod sample_points;
 mod sampling;
 mod scene_tree;
@@ -30,8 +31,7 @@ pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
 pub use sample_points::{PointOctet, Surface};
 pub use sampling::{
-    AllClear, LEAST_COSINE, SampleCount, SampleOctet, SampledVisibility, SegmentTest,
-    sample_visibility,
+    AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, sample_visibility,
 };
 pub use scene_tree::SceneTree;
 pub use survivors::SurvivorList;

@@ -124,7 +124,7 @@ pub fn sample_visibility(
     test: impl SegmentTest,
     source: &impl Surface,
     receiver: &impl Surface,
-    samples: SampleCount,
+    rays: u32,
     key: u64,
     tau: f32,
 ) -> SampledVisibility {
@@ -132,29 +132,10 @@ pub fn sample_visibility(
         test,
         source,
         receiver,
-        samples,
+        rays,
         key,
         tau,
     })
-}
-
-/// How many samples to take.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SampleCount {
-    /// In a set.
-    pub rays: u32,
-    /// Sets to draw at most, until one carries light.
-    pub tries: u32,
-}
-
-impl SampleCount {
-    /// Of an exchange with `rays` rays.
-    pub fn of_exchange(rays: u32) -> Self {
-        Self { rays, tries: TRIES }
-    }
-
-    /// Of a probe: one packet, and no second look where that carries no light.
-    pub const PROBE: Self = Self { rays: 8, tries: 1 };
 }
 
 /// One exchange being sampled.
@@ -162,7 +143,7 @@ struct Sampling<'a, T, S, R> {
     test: T,
     source: &'a S,
     receiver: &'a R,
-    samples: SampleCount,
+    rays: u32,
     key: u64,
     tau: f32,
 }
@@ -177,9 +158,9 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
         let mut total_weight = 0.0f32;
         let mut clear_weight = 0.0f32;
         let mut swallowed = false;
-        for attempt in 0..self.samples.tries {
-            let mut index = attempt * self.samples.rays;
-            let end = index + self.samples.rays;
+        for attempt in 0..TRIES {
+            let mut index = attempt * self.rays;
+            let end = index + self.rays;
             while index < end {
                 let lanes = (end - index).min(8);
                 let [u, v, s, t] = sequence.points(index);

@@ -5,6 +5,7 @@
 //! polygon that merely shares an edge with the shaft (every neighbour of an element does) drops out,
 //! and no identity of polygons is needed to say so.
 
+use super::plane_octet::PlaneOctet;
 use super::shaft::TriangleOctet;
 use super::stored_polygon::StoredPolygon;
 use super::tolerance::Tolerance;
@@ -21,6 +22,8 @@ pub struct SceneTree {
     pub(super) octets: Vec<TriangleOctet>,
     /// The polygons as they are, leaf by leaf: those of leaf `i` start at `8 i`.
     pub(super) polygons: Vec<StoredPolygon>,
+    /// Their planes, leaf by leaf.
+    pub(super) planes: Vec<PlaneOctet>,
     pub(super) tolerance: Tolerance,
     bounds: Aabb,
 }
@@ -53,7 +56,7 @@ impl SceneTree {
             .iter()
             .map(|leaf| octet_of(leaf, &pulled))
             .collect();
-        let polygons = tree
+        let polygons: Vec<StoredPolygon> = tree
             .leaves
             .iter()
             .flat_map(|leaf| leaf.primitives)
@@ -65,6 +68,7 @@ impl SceneTree {
         Self {
             tree,
             octets,
+            planes: polygons.chunks(8).map(PlaneOctet::new).collect(),
             polygons,
             tolerance,
             bounds: boxes.iter().fold(Aabb::EMPTY, |b, &x| b.union(x)),
@@ -92,6 +96,7 @@ impl SceneTree {
         self.tree.bytes()
             + self.octets.len() * size_of::<TriangleOctet>()
             + self.polygons.len() * size_of::<StoredPolygon>()
+            + self.planes.len() * size_of::<PlaneOctet>()
     }
 
     /// The box and reference of the root, where there is any polygon.

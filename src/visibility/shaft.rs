@@ -37,6 +37,8 @@ pub(super) struct Shaft {
     clearance: f32,
     /// False for the box of the union alone, which says only what is outside.
     has_planes: bool,
+    /// The corners of both elements, where they are at most four each.
+    corners: Option<[[f32; 8]; 3]>,
 }
 
 /// Eight triangles in structure-of-arrays form.
@@ -76,6 +78,7 @@ impl Shaft {
             nesting: tolerance.nesting,
             clearance,
             has_planes: false,
+            corners: joint_corners(a, b),
         }
     }
 
@@ -90,7 +93,10 @@ impl Shaft {
         if self.count == MAX_PLANES {
             return;
         }
-        let touch = support(normal, a).max(support(normal, b));
+        let touch = match &self.corners {
+            Some([x, y, z]) => greatest_along(normal, x, y, z),
+            None => support(normal, a).max(support(normal, b)),
+        };
         let length = normal.length();
         let margin = self.rounding * normal.abs().element_sum() + 1.0001 * self.nesting * length;
         self.normals[self.count] = normal;
@@ -152,10 +158,13 @@ impl Shaft {
         clear_lanes(&out) & lanes
     }
 
-    /// Bit per lane: the triangle may meet the shaft (no plane of the shaft has it outside).
+    /// Bit per lane of `lanes`: the triangle may meet the shaft (no plane of the shaft has it outside).
     #[inline(always)]
-    pub(super) fn meets_triangles(&self, triangles: &TriangleOctet) -> u32 {
+    pub(super) fn meets_triangles(&self, triangles: &TriangleOctet, lanes: u32) -> u32 {
         let mut out = [0_u32; 8];
+        for l in 0..8 {
+            out[l] = !(lanes >> l) & 1;
+        }
         let c = &triangles.corners;
         for axis in 0..3 {
             let (low, high) = (self.low[axis], self.high[axis]);
@@ -194,15 +203,57 @@ fn support(normal: Vec3, bounds: &ElementBounds) -> f32 {
         };
         return normal.x * pick(0) + normal.y * pick(1) + normal.z * pick(2);
     }
+    greatest_along(normal, &bounds.x, &bounds.y, &bounds.z)
+}
+
+#[inline(always)]
+fn greatest_along(normal: Vec3, x: &[f32; 8], y: &[f32; 8], z: &[f32; 8]) -> f32 {
     let mut height = [0.0_f32; 8];
     for l in 0..8 {
-        height[l] = normal.x * bounds.x[l] + normal.y * bounds.y[l] + normal.z * bounds.z[l];
+        height[l] = normal.x * x[l] + normal.y * y[l] + normal.z * z[l];
     }
-    let mut greatest = height[0];
-    for h in height {
-        greatest = if h > greatest { h } else { greatest };
+    greatest_of(&height)
+}
+
+/// The corners of two planar elements of at most four each, side by side.
+#[inline(always)]
+fn joint_corners(a: &ElementBounds, b: &ElementBounds) -> Option<[[f32; 8]; 3]> {
+    if a.corner_count() > 4 || b.corner_count() > 4 {
+        return None;
     }
-    greatest
+    let mut corners = [[0.0_f32; 8]; 3];
+    for l in 0..4 {
+        for (axis, (of_a, of_b)) in [(&a.x, &b.x), (&a.y, &b.y), (&a.z, &b.z)]
+            .into_iter()
+            .enumerate()
+        {
+            corners[axis][l] = of_a[l];
+            corners[axis][l + 4] = of_b[l];
+        }
+    }
+    Some(corners)
+}
+
+/// Greatest of eight numbers, in three steps.
+#[inline(always)]
+pub(super) fn greatest_of(lanes: &[f32; 8]) -> f32 {
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let mut four = [0.0_f32; 4];
+    for l in 0..4 {
+        four[l] = larger(lanes[l], lanes[l + 4]);
+    }
+    larger(larger(four[0], four[2]), larger(four[1], four[3]))
+}
+
+/// Least of eight numbers, in three steps.
+#[inline(always)]
+pub(super) fn least_of(lanes: &[f32; 8]) -> f32 {
+    let smaller = |a: f32, b: f32| if a < b { a } else { b };
+    let mut four = [0.0_f32; 4];
+    for l in 0..4 {
+        four[l] = smaller(lanes[l], lanes[l + 4]);
+    }
+    smaller(smaller(four[0], four[2]), smaller(four[1], four[3]))
 }
 
 /// The coordinates of each box's corner that lies least (or most) far along `normal`.

@@ -10,7 +10,7 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::bounds::{BoundsShape, ElementBounds};
-use super::shaft::Shaft;
+use super::shaft::{Shaft, greatest_of, least_of};
 use super::tolerance::Tolerance;
 use glam::Vec3;
 
@@ -29,8 +29,7 @@ pub(super) fn push_planes(
     let slack = 0.25 * tolerance.weld;
     for (own, other) in [(a, b), (b, a)] {
         if own.shape() != BoundsShape::Box {
-            push_supported_by_edges(shaft, own, other, slack);
-            push_caps(shaft, own, other, slack);
+            push_supported(shaft, own, other, slack);
         }
     }
     shaft.complete();
@@ -66,100 +65,78 @@ fn push_projected_hulls(shaft: &mut Shaft, a: &ElementBounds, b: &ElementBounds)
     }
 }
 
-/// For each edge of `own`, the plane through it and a corner of `other` with everything on one side.
+/// The caps of `own` that have everything on one side, and for each edge of it the plane through the edge and a corner
+/// of `other` that has.
+///
+/// With the edge's start `p`, the unit normal `n` of `own` and the direction `m` outwards across the edge within its
+/// plane, a plane through the edge has a normal `m - s n`, which has `own` below it. A corner of `other` at the height `h`
+/// over `own` and `x` along `m` is below it as well if `x <= s h`: every corner above bounds `s` from below, every corner
+/// beneath from above, and the least such `s` supports both.
 #[inline(always)]
-fn push_supported_by_edges(
-    shaft: &mut Shaft,
-    own: &ElementBounds,
-    other: &ElementBounds,
-    slack: f32,
-) {
+fn push_supported(shaft: &mut Shaft, own: &ElementBounds, other: &ElementBounds, slack: f32) {
+    let (p, q) = (own.corner(0), own.corner(1));
+    let r = own.corner(own.corner_count().min(4) - 1);
+    let normal = (q - p).cross(r - p).normalize_or_zero();
+    if normal == Vec3::ZERO {
+        return;
+    }
+    let height = along(normal, p, other);
+    let (least, greatest) = (least_of(&height), greatest_of(&height));
+    let (mut own_least, mut own_greatest) = (0.0, 0.0);
+    if own.shape() == BoundsShape::Slab {
+        let height = along(normal, p, own);
+        (own_least, own_greatest) = (least_of(&height), greatest_of(&height));
+    }
+    if least >= own_least - slack {
+        shaft.push(-normal, own, other);
+    }
+    if greatest <= own_greatest + slack {
+        shaft.push(normal, own, other);
+    }
+    // Corners in the plane bound nothing, unless they lie beyond the edge: then no slant has both below.
+    let mut inverse = [0.0_f32; 8];
+    let (mut no_lower, mut no_upper, mut no_level) = ([0.0_f32; 8], [0.0_f32; 8], [0.0_f32; 8]);
+    for l in 0..8 {
+        let (above, below) = (height[l] > slack, height[l] < -slack);
+        inverse[l] = if above | below { 1.0 / height[l] } else { 0.0 };
+        no_lower[l] = if above { 0.0 } else { -FAR };
+        no_upper[l] = if below { 0.0 } else { FAR };
+        no_level[l] = if above | below { -FAR } else { 0.0 };
+    }
+    if greatest <= slack && least >= -slack {
+        return;
+    }
     for i in 0..own.corner_count() {
         let start = own.corner(i);
         let edge = own.corner(own.next_corner(i)) - start;
-        // Eight candidate planes, one for each corner of the other element.
-        let (mut nx, mut ny, mut nz) = ([0.0_f32; 8], [0.0_f32; 8], [0.0_f32; 8]);
-        let mut limit = [0.0_f32; 8];
+        let outwards = edge.cross(normal);
+        let x = along(outwards, start, other);
+        let (mut lower, mut upper, mut level) = ([0.0_f32; 8], [0.0_f32; 8], [0.0_f32; 8]);
         for l in 0..8 {
-            let (dx, dy, dz) = (
-                other.x[l] - start.x,
-                other.y[l] - start.y,
-                other.z[l] - start.z,
-            );
-            nx[l] = edge.y * dz - edge.z * dy;
-            ny[l] = edge.z * dx - edge.x * dz;
-            nz[l] = edge.x * dy - edge.y * dx;
-            limit[l] = slack * (nx[l] * nx[l] + ny[l] * ny[l] + nz[l] * nz[l]).sqrt();
+            let slant = x[l] * inverse[l];
+            lower[l] = slant + no_lower[l];
+            upper[l] = slant + no_upper[l];
+            level[l] = x[l] + no_level[l];
         }
-        let (mut least, mut greatest) = ([0.0_f32; 8], [0.0_f32; 8]);
-        // The edge's own ends lie in all eight planes.
-        let next = own.next_corner(i);
-        for (bounds, skipped) in [(own, [i, next]), (other, [8, 8])] {
-            for k in 0..bounds.corner_count() {
-                if k == skipped[0] || k == skipped[1] {
-                    continue;
-                }
-                let d = bounds.corner(k) - start;
-                for l in 0..8 {
-                    let height = nx[l] * d.x + ny[l] * d.y + nz[l] * d.z;
-                    least[l] = if height < least[l] { height } else { least[l] };
-                    greatest[l] = if height > greatest[l] {
-                        height
-                    } else {
-                        greatest[l]
-                    };
-                }
-            }
-        }
-        // Where everything lies in the plane it is a cap, not a side.
-        let mut bits = [0_u32; 8];
-        for l in 0..8 {
-            let side = (greatest[l] <= limit[l]) != (least[l] >= -limit[l]);
-            bits[l] = if side { 1 << l } else { 0 };
-        }
-        let mut sides = 0;
-        for bit in bits {
-            sides |= bit;
-        }
-        if sides != 0 {
-            let l = (sides.trailing_zeros() & 7) as usize;
-            let normal = Vec3::new(nx[l], ny[l], nz[l]);
-            let outward = if greatest[l] <= limit[l] {
-                normal
-            } else {
-                -normal
-            };
-            shaft.push(outward, own, other);
+        let (lower, upper) = (greatest_of(&lower), least_of(&upper));
+        let slant = if lower > -0.5 * FAR { lower } else { upper };
+        if slant <= upper && greatest_of(&level) <= slack * edge.abs().element_sum() {
+            shaft.push(outwards - normal * slant, own, other);
         }
     }
 }
 
-/// The planes of `own`'s faces that have everything on one side.
+/// Beyond every slant and length.
+const FAR: f32 = 1.0e30;
+
+/// How far the corners of `bounds` lie along `direction` from `start`.
 #[inline(always)]
-fn push_caps(shaft: &mut Shaft, own: &ElementBounds, other: &ElementBounds, slack: f32) {
-    let (p, q) = (own.corner(0), own.corner(1));
-    let r = own.corner(own.corner_count().min(4) - 1);
-    let normal = (q - p).cross(r - p);
-    let limit = slack * normal.length();
-    if limit <= 0.0 {
-        return;
+fn along(direction: Vec3, start: Vec3, bounds: &ElementBounds) -> [f32; 8] {
+    let mut length = [0.0_f32; 8];
+    for l in 0..8 {
+        length[l] = direction.x * (bounds.x[l] - start.x)
+            + direction.y * (bounds.y[l] - start.y)
+            + direction.z * (bounds.z[l] - start.z);
     }
-    let (mut least, mut greatest) = (f32::INFINITY, f32::NEG_INFINITY);
-    for corner in other.corners() {
-        let height = normal.dot(corner - p);
-        least = least.min(height);
-        greatest = greatest.max(height);
-    }
-    let (mut own_least, mut own_greatest) = (0.0_f32, 0.0_f32);
-    for corner in own.corners() {
-        let height = normal.dot(corner - p);
-        own_least = own_least.min(height);
-        own_greatest = own_greatest.max(height);
-    }
-    if least >= own_least - limit {
-        shaft.push(-normal, own, other);
-    }
-    if greatest <= own_greatest + limit {
-        shaft.push(normal, own, other);
-    }
+    length
 }
