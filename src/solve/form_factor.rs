@@ -243,7 +243,7 @@ pub fn arrival(
     let gap = source.bounds.distance(receiver.bounds);
     match receiver.shape {
         Shape::Triangle(corners) => {
-            if gap > 10.0 * receiver.radius {
+            if gap > 10.0 * receiver.radius && !nears_horizon(source, receiver) {
                 let n = receiver.normal;
                 let at = receiver.centroid;
                 let vector = element_vector(space, source, at, Some(n), flatness.source);
@@ -304,6 +304,16 @@ pub fn arrival(
         Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
     }
 }
+
+/// True where a receiver comes so near to the plane of its source that the light varies over it however far it is.
+fn nears_horizon(source: &Element, receiver: &Element) -> bool {
+    let height = source.normal.dot(receiver.centroid - source.centroid);
+    height < HORIZON_RADII * receiver.radius
+}
+
+/// Height over the source's plane, in radii of the receiver, from which its light varies by less than a quarter to
+/// either side.
+const HORIZON_RADII: f32 = 4.0;
 
 /// Receiver points of a composite rule stand about a sixth of its size apart at contact, so a source of less
 /// than this share of its area may fall between them.
