@@ -267,6 +267,26 @@ impl Element {
         }
     }
 
+    /// An upper bound of the cosine at which any segment from this element to `other`, `gap` away, leaves it.
+    pub fn greatest_cosine(&self, other: &Self, gap: f32) -> f32 {
+        let bend = match self.shape {
+            Shape::Volume => return 1.0,
+            Shape::Triangle(_) => 0.0,
+            Shape::Cluster if self.cone_cos <= 0.0 => return 1.0,
+            // As in `faces_away`.
+            Shape::Cluster => {
+                let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;
+                self.deviation + 2.0 * self.cone_sin * reach
+            }
+        };
+        let height = self.plane_range(other)[1] + bend;
+        if height < gap {
+            (height / gap).max(0.0)
+        } else {
+            1.0
+        }
+    }
+
     /// True when every segment from a point of this triangle to one of `other` leaves its plane at a cosine above
     /// `least`, by a safe margin. False for clusters.
     pub fn faces_beyond(&self, other: &Self, least: f32) -> bool {

@@ -31,7 +31,7 @@ pub(super) enum Next {
 
 impl<const C: usize> Task<'_, '_, C> {
     /// Transfers energy: radiosity x form factor x visibility, where the oracle expects `carried`. Or
-    /// says that the pair has to be split after all.
+    /// says that the pair has to be split after all. `greatest` and `carried` leave the source's weight out.
     pub(super) fn exchange(
         &mut self,
         source: &Source,
@@ -117,7 +117,7 @@ impl<const C: usize> Task<'_, '_, C> {
         // Below zero where a second set stands for others that the first overrated.
         if visibility != 0.0 {
             let radiosity = self.radiosity(source).map(f64::from);
-            let light = radiosity.map(|b| b * f64::from(visibility));
+            let light = radiosity.map(|b| b * source.weight * f64::from(visibility));
             self.deposit(receiver, unoccluded, light);
         }
         Next::Done

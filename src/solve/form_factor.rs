@@ -431,17 +431,6 @@ pub fn oracle_form_factor(source: &Element, receiver: &Element) -> f32 {
     f.min(1.0)
 }
 
-/// A true upper bound of the form factor: from no point can a sphere of radius r at distance D
-/// take more than (r/D)^2 of the light.
-pub fn form_factor_bound(source: &Element, receiver: &Element) -> f32 {
-    let distance = (receiver.centroid - source.centroid).length() - source.radius;
-    if distance <= receiver.radius {
-        return 1.0;
-    }
-    let ratio = receiver.radius / distance;
-    (ratio * ratio).min(1.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

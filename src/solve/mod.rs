@@ -13,6 +13,7 @@ mod facet_table;
 #[cfg(test)]
 mod fixture;
 mod form_factor;
+mod form_factor_bound;
 mod guarantees;
 mod irradiance_kernel;
 #[cfg(test)]
@@ -33,6 +34,8 @@ mod push_pull;
 mod query_record;
 mod query_schedule;
 mod radiosity;
+#[cfg(test)]
+mod roulette_tests;
 mod sampled_element;
 mod snapshot;
 #[cfg(test)]

@@ -15,6 +15,8 @@ pub(super) struct Source {
     pub(super) owner: u32,
     /// Patch of the owner that holds the radiosity: itself, or the frozen leaf that it is a part of.
     pub(super) slot: u32,
+    /// How many times its own light it shoots, in pairs that were played for.
+    pub(super) weight: f64,
 }
 
 /// A receiver in the walk: the element, and a cluster's place in its owner's depth-first order.

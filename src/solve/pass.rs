@@ -66,6 +66,7 @@ pub fn run_pass<const C: usize>(
         oracle: Oracle {
             threshold: config.epsilon * emitted,
             irradiance_tolerance: gradient(config, pass) * emitted / context.polygon_area,
+            played_irradiance: config.gradient * emitted / context.polygon_area,
             min_area: (config.min_area * context.polygon_area) as f32,
             tau: context.tau,
         },

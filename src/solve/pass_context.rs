@@ -11,10 +11,14 @@ use super::radiosity::Shooter;
 use super::sampled_element::{ReceiverSurface, SourceSurface};
 use crate::cluster::Hierarchy;
 use crate::embree::CommittedScene;
+use crate::math::hash_u64;
 use crate::scene::Scene;
 use crate::visibility::{SampledVisibility, SegmentTest, sample_visibility};
 use glam::Vec3;
 use pulp::Arch;
+
+/// Beside the rounds of samples (0, 1) and the choice of those that are measured again (2).
+const LOTS: u64 = 3;
 
 /// What stays the same during a solve.
 #[derive(Clone, Copy)]
@@ -64,6 +68,13 @@ pub(super) struct Pass<'a, const C: usize> {
 }
 
 impl<const C: usize> Pass<'_, C> {
+    /// Draws the lot of a pair: true with this chance, by its name alone, so that every technique draws the same.
+    pub(super) fn wins(&self, source: &Element, receiver: &Element, chance: f64) -> bool {
+        let key = exchange_key(self.key.wrapping_add(LOTS), source, receiver);
+        // The upper 53 bits, as a fraction of one.
+        ((hash_u64(key) >> 11) as f64) < chance * (1u64 << 53) as f64
+    }
+
     /// Casts the samples of a pair.
     pub(super) fn sample(
         &self,

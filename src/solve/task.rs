@@ -90,6 +90,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             element: context.elements[id.index()],
             owner,
             slot,
+            weight: 1.0,
         }
     }
 
@@ -101,9 +102,10 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    /// Unshot radiosity of a source, greatest channel.
+    /// Unshot radiosity of a source, greatest channel, times its weight.
     pub(super) fn greatest(&self, source: &Source) -> f64 {
-        f64::from(self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x)))
+        let radiosity = self.radiosity(source).iter().fold(0.0f32, |m, &x| m.max(x));
+        source.weight * f64::from(radiosity)
     }
 
     /// Relative variance of a source's unshot radiosity.

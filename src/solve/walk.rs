@@ -44,24 +44,29 @@ impl<const C: usize> Task<'_, '_, C> {
         if greatest <= 0.0 || self.is_interrupted() {
             return;
         }
-        let decision = self
-            .pass
-            .oracle
-            .decide(&source.element, &receiver.element, greatest);
+        let decision =
+            self.pass
+                .oracle
+                .decide(&source.element, &receiver.element, greatest, source.weight);
         match decision {
             Decision::Nothing => {}
-            Decision::Drop(power) if self.outcome.dropped + power <= self.drop_budget => {
+            Decision::Play { power, .. }
+                if self.pass.oracle.may_drop(power)
+                    && self.outcome.dropped + power <= self.drop_budget =>
+            {
                 self.outcome.dropped += power;
             }
-            // The budget is spent: go on down where something can be split.
-            Decision::Drop(_) => {
-                let by_source = source.element.radius >= receiver.element.radius
-                    && !source.element.is_triangle()
-                    || receiver.element.is_triangle();
-                self.split(source, receiver, greatest, known, by_source);
+            Decision::Play { chance, .. } => {
+                if self.pass.wins(&source.element, &receiver.element, chance) {
+                    let mut source = *source;
+                    source.weight /= chance;
+                    self.walk(&source, receiver, greatest / chance, known);
+                }
             }
             Decision::Exchange(carried) => {
-                match self.exchange(source, receiver, greatest, carried, known) {
+                // Shadows and gradients are looked for as if the pair had not been played for: its light is a sample.
+                let weight = source.weight;
+                match self.exchange(source, receiver, greatest / weight, carried / weight, known) {
                     Next::Done => {}
                     Next::SplitSource => self.split(source, receiver, greatest, known, true),
                     Next::SplitReceiver => self.split(source, receiver, greatest, known, false),
@@ -117,13 +122,17 @@ impl<const C: usize> Task<'_, '_, C> {
                     } else {
                         first + which
                     },
+                    weight: source.weight,
                 };
                 let greatest = self.greatest(&child);
                 self.walk(&child, receiver, greatest, known);
             }
         } else if let Some(children) = self.pass.context.hierarchy.children(source.element.node) {
             for child in children {
-                let child = self.source_of_node(child);
+                let child = Source {
+                    weight: source.weight,
+                    ..self.source_of_node(child)
+                };
                 let greatest = self.greatest(&child);
                 self.walk(&child, receiver, greatest, known);
             }
