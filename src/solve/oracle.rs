@@ -39,6 +39,8 @@ pub struct Oracle {
     pub threshold: f64,
     /// Irradiance of a receiver that an exchange may leave unresolved: beyond it the receiver is split.
     pub irradiance_tolerance: f64,
+    /// Power that a pair which was played for may carry.
+    pub played_power: f64,
     /// Irradiance that a pair which was played for may leave on its receiver.
     pub played_irradiance: f64,
     /// Least area of a patch, normalised.
@@ -59,7 +61,7 @@ const WIDE_GAP: f32 = 4.0;
 /// section 6): a thousand dropped pairs are worth one exchange.
 const DROP_SHARE: f64 = 1.0e-3;
 /// Stakes over the threshold: of pairs that would have to be taken apart because an end is a volume, too near or too
-/// bent, and of those that could exchange. Measured (`bench/runs/`, roulette): an eighth for the latter leaves the
+/// bent, and of those that could exchange. Measured (`bench/runs/`, accuracy): an eighth for the latter leaves the
 /// error of cornell, d, f, corridor and two-rooms the same within the noise for 20 to 32 % fewer exchanges; a quarter
 /// takes d from 0.84 to 0.93 % for 10 % more.
 const SPLIT_STAKE: f64 = 0.25;
@@ -157,7 +159,7 @@ impl Oracle {
     /// threshold, but no more than may fall on the receiver at once: small receivers would become speckled.
     fn play(&self, share: f64, receiver: &Element, power: f64, weight: f64) -> Option<Decision> {
         let most = self.played_irradiance * f64::from(receiver.area);
-        let stake = (share * self.threshold).min(most);
+        let stake = (share * self.threshold).min(self.played_power).min(most);
         let chance = (power / stake).max(weight / MOST_WEIGHT);
         (chance < SURE).then_some(Decision::Play { chance, power })
     }

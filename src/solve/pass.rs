@@ -34,6 +34,10 @@ fn gradient(config: &SolveConfig, pass: u32) -> f64 {
     }
 }
 
+/// Share of the emitted power that a pair which was played for may carry, whatever epsilon: lots of so much move the
+/// power of the whole scene by less than a per cent (the root of it), were all pairs played for.
+const MOST_PLAYED: f64 = 1.0e-4;
+
 /// One in how many tasks goes before the others.
 const FIRST_TASKS: usize = 16;
 
@@ -66,6 +70,7 @@ pub fn run_pass<const C: usize>(
         oracle: Oracle {
             threshold: config.epsilon * emitted,
             irradiance_tolerance: gradient(config, pass) * emitted / context.polygon_area,
+            played_power: MOST_PLAYED * emitted,
             played_irradiance: config.gradient * emitted / context.polygon_area,
             min_area: (config.min_area * context.polygon_area) as f32,
             tau: context.tau,
