@@ -62,7 +62,7 @@ const WIDE_GAP: f32 = 4.0;
 const DROP_SHARE: f64 = 1.0e-3;
 /// Stakes over the threshold: of pairs that would have to be taken apart because an end is a volume, too near or too
 /// bent, and of those that could exchange. Measured (`bench/runs/`, accuracy): an eighth for the latter leaves the
-/// error of cornell, d, f, corridor and two-rooms the same within the noise for 20 to 32 % fewer exchanges; a quarter
+/// error of cornell, d, f, corridor and two-rooms the same within the noise for 20 to 34 % fewer exchanges; a quarter
 /// takes d from 0.84 to 0.93 % for 10 % more.
 const SPLIT_STAKE: f64 = 0.25;
 const EXCHANGE_STAKE: f64 = 0.125;
