@@ -252,6 +252,20 @@ fn report_check(session: &Session, check: &ClaimCheck) -> Result<(), CliError> {
         check.disagreements,
         check.contradictions.len()
     ));
+    if check.native_rays > 0 {
+        session.say(format_args!(
+            "native tests checked: {} rays, {} disagree with Embree, {} are wrong",
+            check.native_rays,
+            check.native_disagreements,
+            check.native_errors.len()
+        ));
+    }
+    if let Some(first) = check.native_errors.first() {
+        return Err(CliError::CheckFailed(format!(
+            "{} native tests of rays are wrong; the first: {first:?}",
+            check.native_errors.len()
+        )));
+    }
     match check.contradictions.first() {
         None => Ok(()),
         Some(first) => Err(CliError::CheckFailed(format!(

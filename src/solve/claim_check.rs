@@ -1,5 +1,5 @@
-//! The debug mode of a solve: rays of claimed exchanges are cast all the same, and every one that
-//! disagrees with its claim is settled in exact arithmetic (truth: "Guarantees").
+//! The debug mode of a solve: rays of claimed exchanges, and those that were tested natively, are cast through Embree all the
+//! same, and every one that disagrees is settled in exact arithmetic (truth: "Guarantees"; design, section 7, point 4).
 
 use super::claims::Claim;
 use crate::visibility::exact::{SegmentStanding, judge_segment};
@@ -15,6 +15,13 @@ pub struct ClaimCheck {
     pub disagreements: u64,
     /// Those that stand in exact arithmetic: none, or a guarantee is wrong.
     pub contradictions: Vec<Contradiction>,
+    /// Rays that were tested natively, and then cast.
+    pub native_rays: u64,
+    /// Those on which Embree disagrees with the native answer.
+    pub native_disagreements: u64,
+    /// Those of them that the native test has wrong, as segments with what is sure of them: none, or the test or the list is
+    /// wrong.
+    pub native_errors: Vec<([Vec3; 2], SegmentStanding)>,
 }
 
 /// A segment that proves a claim false.
@@ -34,6 +41,40 @@ impl ClaimCheck {
         self.rays += other.rays;
         self.disagreements += other.disagreements;
         self.contradictions.extend(other.contradictions);
+        self.native_rays += other.native_rays;
+        self.native_disagreements += other.native_disagreements;
+        self.native_errors.extend(other.native_errors);
+    }
+
+    /// True if every disagreement was settled in favour of the engine.
+    pub fn holds(&self) -> bool {
+        self.contradictions.is_empty() && self.native_errors.is_empty()
+    }
+
+    /// Judges the segments of one exchange that were tested natively, where Embree says otherwise.
+    pub fn judge_native(
+        &mut self,
+        scene: &SceneTree,
+        native: &[(Vec3, Vec3, bool)],
+        cast: &[(Vec3, Vec3, bool)],
+    ) {
+        self.native_rays += native.len() as u64;
+        for (&(from, to, blocked), _) in native
+            .iter()
+            .zip(cast)
+            .filter(|((.., native), (.., cast))| native != cast)
+        {
+            self.native_disagreements += 1;
+            let standing = judge_segment(scene, from.as_dvec3(), to.as_dvec3());
+            let wrong = match standing {
+                SegmentStanding::Blocked(_) => !blocked,
+                SegmentStanding::Clear => blocked,
+                SegmentStanding::Between => false,
+            };
+            if wrong {
+                self.native_errors.push(([from, to], standing));
+            }
+        }
     }
 
     /// Judges the segments of one exchange under `claim`.

@@ -187,12 +187,24 @@ impl<const C: usize> Task<'_, '_, C> {
     ) -> SampledVisibility {
         let rays = self.pass.config.rays;
         if self.pass.config.technique == Technique::Blockers {
+            let checks = self.pass.config.check_claims;
             let list = self
                 .prover
                 .as_mut()
                 .and_then(|p| p.blockers(known.knowledge));
             if let Some(list) = list {
-                let sampled = self.pass.sample(list, source, receiver, rays, round);
+                let sampled = if checks {
+                    let test = Recording {
+                        test: list,
+                        segments: &mut self.segments,
+                    };
+                    self.pass.sample(test, source, receiver, rays, round)
+                } else {
+                    self.pass.sample(list, source, receiver, rays, round)
+                };
+                if checks {
+                    self.check_native(source, receiver, round);
+                }
                 let statistics = &mut self.outcome.statistics;
                 statistics.native_rays += u64::from(sampled.rays);
                 statistics.native_rays_blocked += u64::from(sampled.rays_blocked);
@@ -238,6 +250,24 @@ impl<const C: usize> Task<'_, '_, C> {
                 + MEASURED_ONE_IN as f32 * (again.visibility - first.visibility);
         }
         first.visibility
+    }
+
+    /// Casts the rays of an exchange that was tested natively, and judges those that disagree.
+    fn check_native(&mut self, source: &Source, receiver: &Element, round: u64) {
+        let mut native = std::mem::take(&mut self.segments);
+        let mut cast = Vec::with_capacity(native.len());
+        let test = Recording {
+            test: self.pass.context.embree,
+            segments: &mut cast,
+        };
+        let rays = self.pass.config.rays;
+        self.pass.sample(test, source, receiver, rays, round);
+        if let Some(guarantees) = self.pass.context.guarantees {
+            let check = &mut self.outcome.check;
+            check.judge_native(&guarantees.scene, &native, &cast);
+        }
+        native.clear();
+        self.segments = native;
     }
 
     /// Casts the rays that a claim saves, and judges those that disagree.

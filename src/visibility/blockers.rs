@@ -66,8 +66,8 @@ pub struct BlockerList {
     blockers: Vec<Blocker>,
     /// Parallel to `blockers`.
     outlines: Vec<Outline>,
-    /// Half of `tau`: a surely blocked segment has ends twice as deep, and one that crosses deeper
-    /// than this comes within half of the weld distance of the polygon even when cut back.
+    /// Just below `tau`: a surely blocked segment has deeper ends, and one that crosses deeper than this comes within a
+    /// hundred-millionth of the weld distance of the polygon even when cut back. Embree's rays are cut back by as much.
     depth: f64,
     pending: Vec<(ChildRef, u32)>,
     arch: Arch,
@@ -79,7 +79,7 @@ impl BlockerList {
         Self {
             blockers: Vec::new(),
             outlines: Vec::new(),
-            depth: 0.5 * f64::from(scene.tolerance.tau),
+            depth: 0.999_999_99 * f64::from(scene.tolerance.tau),
             pending: Vec::new(),
             arch: Arch::new(),
         }
@@ -154,8 +154,8 @@ impl BlockerList {
 
     /// Bit per lane: some polygon of the list blocks the segment.
     ///
-    /// Error: in f64, coordinates below 1, heights are right to 1e-15 and the crossing point to
-    /// 1e-15 / depth < 1e-8 of the weld distance's scale, both far inside the definitions' gap.
+    /// Error: in f64, coordinates below 1, heights are right to 1e-15, less than a hundred-millionth of the depth, which is
+    /// what the depth falls short of `tau`; the crossing point to 1e-15 / depth, far less than the weld distance.
     pub fn blocked8(&self, segments: &SegmentOctet) -> u8 {
         self.arch.dispatch(BlockedKernel {
             list: self,

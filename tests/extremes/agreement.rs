@@ -120,31 +120,45 @@ pub fn hold_within(
         (Technique::Blockers, Stride::Auto),
     ] {
         config.stride = stride;
+        // Blockers are checked below, ray by ray.
+        config.check_claims = technique == Technique::Blockers;
         let solved = solve_by(prepared, technique, &config);
+        assert!(solved.check.holds(), "{what}: {:?}", solved.check);
         claims.occluded += solved.passes[0].occluded_claims;
         claims.visible += solved.passes[0].visible_claims;
         let other = faces(prepared, &solved);
         assert_eq!(normal.len(), other.len());
-        let mut worst = (0.0, None);
+        let (mut worst, mut squares, mut area) = ((0.0, None), 0.0, 0.0);
         for ((face, a), b) in normal.iter().zip(other.values()) {
             let difference: [f64; 3] =
                 std::array::from_fn(|c| (a.irradiance[c] - b.irradiance[c]).abs());
             let own = greatest(a.irradiance, a.area).max(mean);
             let difference = greatest(difference, a.area);
+            squares += a.area * difference.powi(2);
+            area += a.area;
             if difference > worst.0 * own {
                 worst = (difference / own, Some(face));
             }
         }
+        // A ray that grazes a border may be blocked natively and not in Embree, or the other way round, and each such is worth
+        // one ray of one exchange: blockers are held to it in the mean of the squares.
+        let (difference, allowed) = match technique {
+            Technique::Blockers if squares > 0.0 => {
+                ((squares / area).sqrt() / mean, 10.0 * agreement)
+            }
+            _ => (worst.0, agreement),
+        };
         assert!(
-            worst.0 <= agreement,
+            difference <= allowed,
             "{what}: {} ({stride:?}) differs by {:.2e} at {:?}",
             technique.name(),
-            worst.0,
+            difference,
             worst.1
         );
     }
     config.technique = Technique::Occlusion;
     config.stride = PAPER;
+    config.check_claims = false;
     let report = audit(prepared, &config, &short_audit(), &Silent).expect("audits");
     assert!(!report.is_refuted(), "{what}: {:?}", report.flaws.first());
     claims.audited += report.claims_audited;
