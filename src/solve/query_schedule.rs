@@ -85,7 +85,7 @@ const QUERY_BASE_COST: f32 = 0.4;
 const OCCLUDER_STEP_COST: f32 = 0.05;
 const NODE_COST: f32 = 0.2;
 /// What testing a packet natively saves, in packets.
-const NATIVE_GAIN: f32 = 0.4;
+const NATIVE_GAIN: f32 = 0.25;
 /// Nodes and leaves that any walk, and no walk but the paper's, may test.
 const LEAST_NODES: f32 = 8.0;
 const MOST_NODES: f32 = 32.0;
@@ -160,6 +160,7 @@ impl QuerySchedule {
         match self.likely(expected) {
             Queries::None
                 if self.technique == Technique::Blockers
+                    && self.history % 4 == MIXED
                     && expected >= LEAST_SHORTENED
                     && self.shortening[size(expected)].pays(NATIVE_GAIN * expected) =>
             {
