@@ -123,26 +123,34 @@ impl<'a> Prover<'a> {
         Some(prover)
     }
 
-    /// What to ask about a pair that is about to be split.
-    /// `expected` is how many packets of eight rays are likely to be cast below it.
+    /// What to ask about a pair that is about to be split. `expected` is how many packets of eight rays are likely to be
+    /// cast below it; worked out only where the answer hangs on it.
     pub fn plan_before_split(
         &mut self,
         source: &Element,
         receiver: &Element,
         knowledge: Knowledge,
-        expected: f32,
-    ) -> Queries {
+        expected: impl FnOnce() -> f32,
+    ) -> (Queries, Occasion) {
+        let never = (Queries::None, Occasion::Split(0.0));
+        let is_due = knowledge.verdict == Verdict::Unknown
+            && match self.stride {
+                Stride::Every(levels) => knowledge.level.is_multiple_of(levels),
+                // Boxes that meet are rarely parted by one plane, and each is in the other's way.
+                Stride::Auto => {
+                    self.schedule.may_ask() && source.bounds.distance(receiver.bounds) > 0.0
+                }
+            };
         // A pair that shares surface has neither a plane between its ends nor an empty shaft.
-        if knowledge.verdict != Verdict::Unknown || source.overlaps(receiver) {
-            return Queries::None;
+        if !is_due || source.overlaps(receiver) {
+            return never;
         }
-        match self.stride {
-            Stride::Every(levels) if knowledge.level.is_multiple_of(levels) => Queries::Both,
-            Stride::Every(_) => Queries::None,
-            // Boxes that meet are rarely parted by one plane, and each is in the other's way.
-            Stride::Auto if source.bounds.distance(receiver.bounds) <= 0.0 => Queries::None,
+        let expected = expected();
+        let queries = match self.stride {
+            Stride::Every(_) => Queries::Both,
             Stride::Auto => self.schedule.before_split(expected, knowledge.asked_at),
-        }
+        };
+        (queries, Occasion::Split(expected))
     }
 
     /// What to ask about a pair that is about to exchange.

@@ -151,6 +151,11 @@ impl QuerySchedule {
         }
     }
 
+    /// False where no pair would be asked about, however large.
+    pub fn may_ask(&self) -> bool {
+        self.history % 4 != MIXED || self.technique == Technique::Blockers
+    }
+
     /// What to ask about a pair with `expected` packets to be cast below it, where the last one asked about above had
     /// `asked_at`.
     pub fn before_split(&mut self, expected: f32, asked_at: f32) -> Queries {

@@ -12,7 +12,7 @@ use super::radiosity::Gatherer;
 use super::statistics::PassStatistics;
 use crate::cluster::NodeKind;
 use crate::math::NodeId;
-use crate::visibility::{SampledVisibility, Verdict};
+use crate::visibility::SampledVisibility;
 use glam::Vec3;
 
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
@@ -124,17 +124,15 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         greatest: f64,
         known: Known,
     ) -> Known {
-        if self.prover.is_none() || known.knowledge.verdict != Verdict::Unknown {
-            return known;
-        }
         let Some(prover) = &mut self.prover else {
             return known;
         };
-        let (from, to) = (&source.element, &receiver.element);
-        let expected = self.pass.oracle.expected_exchanges(from, to, greatest)
-            * packets_of_exchange(self.pass.config.rays);
-        let queries = prover.plan_before_split(from, to, known.knowledge, expected);
-        self.prove(source, receiver, known, queries, Occasion::Split(expected))
+        let (from, to, pass) = (&source.element, &receiver.element, self.pass);
+        let (queries, occasion) = prover.plan_before_split(from, to, known.knowledge, || {
+            pass.oracle.expected_exchanges(from, to, greatest)
+                * packets_of_exchange(pass.config.rays)
+        });
+        self.prove(source, receiver, known, queries, occasion)
     }
 
     /// Asks the prover, if there is one, and keeps a new claim.
