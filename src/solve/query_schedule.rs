@@ -80,7 +80,7 @@ impl Evidence {
 }
 
 /// Parts of a query's cost, in packets of eight rays: what every query costs, a node or full test of the occluders,
-/// and a node or leaf of the scene with its polygons. Measured on d, e and f (`bench/runs/`, schedule).
+/// and a node or leaf of the scene with its polygons. Measured on d, e and f at the fixed stride (`bench/runs/`, compare).
 const QUERY_BASE_COST: f32 = 0.4;
 const OCCLUDER_STEP_COST: f32 = 0.05;
 const NODE_COST: f32 = 0.2;
