@@ -210,7 +210,7 @@ pub struct SolveArgs {
     /// What occluders are to be like.
     #[command(flatten)]
     pub occluders: OccluderArgs,
-    /// Debugging: cast the rays of proved exchanges all the same; fail if one proves a claim wrong.
+    /// Debugging: cast the rays of proved exchanges, and those tested natively, all the same; fail if one proves a claim or a test wrong.
     #[arg(long)]
     pub check_claims: bool,
 }

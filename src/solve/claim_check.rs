@@ -66,12 +66,7 @@ impl ClaimCheck {
         {
             self.native_disagreements += 1;
             let standing = judge_segment(scene, from.as_dvec3(), to.as_dvec3());
-            let wrong = match standing {
-                SegmentStanding::Blocked(_) => !blocked,
-                SegmentStanding::Clear => blocked,
-                SegmentStanding::Between => false,
-            };
-            if wrong {
+            if refutes(standing, blocked) {
                 self.native_errors.push(([from, to], standing));
             }
         }
@@ -87,12 +82,7 @@ impl ClaimCheck {
             }
             self.disagreements += 1;
             let standing = judge_segment(scene, from.as_dvec3(), to.as_dvec3());
-            let stands = match standing {
-                SegmentStanding::Blocked(_) => !claimed_blocked,
-                SegmentStanding::Clear => claimed_blocked,
-                SegmentStanding::Between => false,
-            };
-            if stands {
+            if refutes(standing, claimed_blocked) {
                 self.contradictions.push(Contradiction {
                     claim,
                     segment: [from, to],
@@ -100,6 +90,15 @@ impl ClaimCheck {
                 });
             }
         }
+    }
+}
+
+/// True if what is sure of a segment is the opposite of what was said of it.
+fn refutes(standing: SegmentStanding, said_blocked: bool) -> bool {
+    match standing {
+        SegmentStanding::Blocked(_) => !said_blocked,
+        SegmentStanding::Clear => said_blocked,
+        SegmentStanding::Between => false,
     }
 }
 

@@ -312,7 +312,7 @@ fn nears_horizon(source: &Element, receiver: &Element) -> bool {
 }
 
 /// Height over the source's plane, in radii of the receiver, from which its light varies by less than a quarter to
-/// either side.
+/// either side (`bench/runs/`, accuracy/horizon.md).
 const HORIZON_RADII: f32 = 4.0;
 
 /// Receiver points of a composite rule stand about a sixth of its size apart at contact, so a source of less
