@@ -142,7 +142,8 @@ pub struct SolveCommand {
     /// Leave out view.exr and view.png.
     #[arg(long)]
     pub no_view: bool,
-    /// Go on from the checkpoint in DIR, if there is one; do nothing if DIR holds this very solve already.
+    /// Go on from the checkpoint in DIR, if there is one; if DIR holds this very solve already, make only the files that it
+    /// lacks, or that were made with another --up.
     #[arg(long, conflicts_with = "check_claims")]
     pub resume: bool,
     /// Keep no checkpoint after each pass.

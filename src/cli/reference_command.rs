@@ -10,7 +10,7 @@ use super::session::Session;
 use super::solve_args::SceneArgs;
 use super::solve_command::with_threads;
 use crate::embree::DeviceConfig;
-use crate::output::{ReferenceMeta, mean_radiosity, write_reference};
+use crate::output::{ReferenceMeta, mean_radiosity, scene_hash, write_reference};
 use crate::reference::{Reference, ReferenceConfig, ReferenceError, TracedScene, measure};
 use crate::scene::Scene;
 use crate::solve::SolveConfig;
@@ -77,6 +77,7 @@ pub fn measure_scene(
         embree: traced.embree_version.to_string(),
         command: session.words.clone(),
         scene: traced.scene.name.clone(),
+        scene_hash: scene_hash(&traced.scene),
         sides: sides.map_or_else(String::new, |v| v.get_name().to_owned()),
         seed: config.seed,
         threads: rayon::current_num_threads(),

@@ -1,22 +1,24 @@
 //! `certilux solve`: OBJ in; solution, picture and numbers out.
 
-use super::args::{FormArg, SolveCommand};
-use super::checkpointing::{Checkpointing, is_done};
+use super::args::SolveCommand;
+use super::checkpointing::Checkpointing;
 use super::error::CliError;
+use super::finished_solve::FinishedSolve;
 use super::folder_lock::FolderLock;
 use super::logs;
 use super::memory_guard::{MemoryGuard, check_estimate};
+use super::output_files::{asked_outputs, remove_other_outputs, write_outputs};
 use super::progress::Progress;
 use super::quality::Quality;
-use super::render::{DEFAULT_SIZE, make_folder, render, write_picture};
+use super::render::make_folder;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_settings::settings;
 use super::summary::print_summary;
 use crate::job::MemoryEstimate;
 use crate::output::{
-    ContentBlock, Fingerprint, HierarchyBlock, OutputError, SceneBlock, SecondsBlock, SolvedMesh,
-    Staging, StatsFile, UpAxis, ViewConfig, file_hash, write_glb, write_ply, write_vtu,
+    ContentBlock, Fingerprint, HierarchyBlock, OutputError, OutputsBlock, SceneBlock, SecondsBlock,
+    SolvedMesh, Staging, StatsFile, file_hash, write_ply,
 };
 use crate::solve::{
     ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, resume, solve,
@@ -65,12 +67,10 @@ fn solve_and_write(
         "scene loaded"
     );
     let fingerprint = Fingerprint::new(&scene, settings(command, config));
-    if command.resume && is_done(&command.out, &fingerprint, &names(command)) {
-        session.say(format_args!(
-            "{} holds this solve already; nothing is left to do",
-            command.out.display()
-        ));
-        return Ok(());
+    if command.resume
+        && let Some(finished) = FinishedSolve::find(&command.out, &fingerprint)
+    {
+        return finished.complete(session, command);
     }
     let estimate = MemoryEstimate::of(&scene, config, !command.no_view);
     check_estimate(estimate, command.max_memory)?;
@@ -118,18 +118,7 @@ fn solve_and_write(
     let mesh = SolvedMesh::new(&prepared.scene, &solved.solution);
     let solution_path = staging.file("solution.ply")?;
     write_ply(&solution_path, &mesh, &session.interrupted)?;
-    write_forms(session, command, &mesh, &mut staging)?;
-    if !command.no_view {
-        let picture = render(
-            &mesh,
-            |view| view.automatic_camera(DEFAULT_SIZE, command.up.map(UpAxis::from)),
-            &ViewConfig::default(),
-            &session.interrupted,
-        )?;
-        for name in ["view.exr", "view.png"] {
-            write_picture(&staging.file(name)?, &picture, 0.0, &session.interrupted)?;
-        }
-    }
+    write_outputs(session, command, &mesh, &mut staging, |_| true)?;
     let stats_path = staging.file("stats.json")?;
     let mut stats = stats_file(
         session,
@@ -145,6 +134,7 @@ fn solve_and_write(
             .map_err(|e| OutputError::io("read", &solution_path, e))?,
     };
     stats.settings = fingerprint.settings;
+    stats.outputs = asked_outputs(command);
     // With the black face of each polygon that no light reaches.
     stats.hierarchy.leaves = mesh.faces.len();
     stats.seconds = SecondsBlock {
@@ -157,7 +147,7 @@ fn solve_and_write(
     };
     stats.write(&stats_path, &session.interrupted)?;
     let files = staging.publish()?;
-    remove_other_forms(command);
+    remove_other_outputs(command);
     checkpoint.remove();
     if !session.quiet {
         print_summary(&stats, &files);
@@ -166,58 +156,6 @@ fn solve_and_write(
         report_check(session, &solved.check)?;
     }
     Ok(())
-}
-
-/// What a whole set of results holds.
-fn names(command: &SolveCommand) -> Vec<&'static str> {
-    let mut names = vec!["solution.ply", "stats.json"];
-    if !command.no_view {
-        names.extend(["view.exr", "view.png"]);
-    }
-    names.extend(
-        (FORMS.iter()).filter_map(|(form, name)| command.format.contains(form).then_some(*name)),
-    );
-    names
-}
-
-/// The forms that are written on request.
-const FORMS: [(FormArg, &str); 2] = [
-    (FormArg::Glb, "solution.glb"),
-    (FormArg::Vtu, "solution.vtu"),
-];
-
-/// Writes the forms of the solution that were asked for.
-fn write_forms(
-    session: &Session,
-    command: &SolveCommand,
-    mesh: &SolvedMesh,
-    staging: &mut Staging,
-) -> Result<(), OutputError> {
-    for (form, name) in FORMS {
-        if !command.format.contains(&form) {
-            continue;
-        }
-        let path = staging.file(name)?;
-        match form {
-            FormArg::Ply => {}
-            FormArg::Glb => {
-                let up = command.up.map_or(UpAxis::Y, UpAxis::from);
-                write_glb(&path, mesh, up, &session.interrupted)?;
-            }
-            FormArg::Vtu => write_vtu(&path, mesh, &session.interrupted)?,
-        }
-    }
-    Ok(())
-}
-
-/// Removes the forms of an earlier solution that this solve was not asked for: they would be of other light.
-fn remove_other_forms(command: &SolveCommand) {
-    for (form, name) in FORMS {
-        if !command.format.contains(&form) {
-            // What cannot be removed is no failure of the solve; most often it is not there.
-            let _ = std::fs::remove_file(command.out.join(name));
-        }
-    }
 }
 
 /// Solves from the start, or from the checkpoint; with the seconds that its passes took.
@@ -304,6 +242,7 @@ fn stats_file(
         },
         settings: BTreeMap::new(),
         content: ContentBlock::default(),
+        outputs: OutputsBlock::new(),
         scene,
         hierarchy: HierarchyBlock {
             face_clusters: count(crate::cluster::NodeKind::FaceCluster),

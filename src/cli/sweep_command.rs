@@ -1,6 +1,7 @@
 //! `certilux sweep`: speed against accuracy.
 
 use super::error::CliError;
+use super::logs;
 use super::reference_command::measure_scene;
 use super::render::make_folder;
 use super::scene_source::{load_scene, prepare};
@@ -10,8 +11,9 @@ use super::sweep_args::{SweepCommand, presets};
 use super::sweep_progress::SweepProgress;
 use crate::experiment::{Sweep, SweepRow, SweepSettings, error_at_cost, sweep_fronts};
 use crate::output::{
-    OutputError, ReferenceFace, SweepCost, SweepKey, SweepMeta, read_reference, read_sweep,
-    scene_hash, sweep_csv, true_faces, write_reference, write_sweep, write_sweep_plot, write_text,
+    OutputError, ReferenceFace, ReferenceRequest, SweepCost, SweepKey, SweepMeta, read_reference,
+    read_sweep, scene_hash, sweep_csv, true_faces, write_reference, write_sweep, write_sweep_plot,
+    write_text,
 };
 use crate::reference::{ReferenceError, SolvedLights, TrueFace, solution_error};
 use crate::scene::Scene;
@@ -23,6 +25,8 @@ use std::time::Instant;
 
 /// The reference that a sweep measures itself.
 const REFERENCE: &str = "reference.json";
+/// The rows, as `--resume` reads them.
+const TABLE: &str = "sweep.json";
 
 /// Solves the grid and writes table and plots.
 pub fn run(session: &Session, command: &SweepCommand) -> Result<(), CliError> {
@@ -66,14 +70,13 @@ fn sweep_and_write(
     let start = Instant::now();
     let base = command.base();
     let mut prepared = prepare(scene, &command.scene.reading, base.seed)?;
-    let sides = command.scene.reading.sides.to_possible_value();
     let meta = SweepMeta {
         key: SweepKey {
             format: SweepKey::FORMAT,
             certilux: env!("CARGO_PKG_VERSION").to_owned(),
             embree: prepared.embree_version.to_string(),
             scene_hash: scene_hash(&prepared.scene),
-            sides: sides.map_or_else(String::new, |v| v.get_name().to_owned()),
+            sides: sides_name(command),
             seed: base.seed,
             normalise: base.normalise,
             threads: rayon::current_num_threads(),
@@ -121,14 +124,53 @@ fn own_reference(
     scene: &Scene,
 ) -> Result<Vec<ReferenceFace>, CliError> {
     let path = command.out.join(REFERENCE);
-    if !(command.resume && path.exists()) {
-        let config = command.reference_config();
+    let config = command.reference_config();
+    if !(command.resume && keeps_reference(&path, command, scene)) {
         let (meta, reference) = measure_scene(session, scene.clone(), &command.scene, &config)?;
         write_reference(&path, &meta, &reference, &session.interrupted)?;
     }
     let records = read_reference(&path).map_err(CliError::Solution)?;
     check_faces(&records, scene)?;
     Ok(records)
+}
+
+/// Whether the reference that stands at `path` serves: it is the one asked for, or rows were compared with it.
+fn keeps_reference(path: &Path, command: &SweepCommand, scene: &Scene) -> bool {
+    let config = command.reference_config();
+    let asked = ReferenceRequest {
+        scene_hash: scene_hash(scene),
+        sides: sides_name(command),
+        error: config.error,
+        max_seconds: config.max_seconds,
+    };
+    let found = ReferenceRequest::of_file(path);
+    if found.as_ref() == Some(&asked) {
+        return true;
+    }
+    let has_rows = path.exists() && path.with_file_name(TABLE).exists();
+    if let Some(found) = found.filter(|_| has_rows) {
+        let text = |request: &ReferenceRequest| {
+            let limit = request.max_seconds;
+            let limit = limit.map_or_else(String::new, |s| format!(" in {s} s at most"));
+            format!("a standard error of {}{limit}", request.error)
+        };
+        // Another scene or other sides: the rows tell, and are refused.
+        if (found.error, found.max_seconds) != (asked.error, asked.max_seconds) {
+            logs::warn(format_args!(
+                "{} is kept, since rows were compared with it; it was measured for {}, not {}",
+                path.display(),
+                text(&found),
+                text(&asked)
+            ));
+        }
+    }
+    has_rows
+}
+
+/// `--sides`, as the flag calls it.
+fn sides_name(command: &SweepCommand) -> String {
+    let sides = command.scene.reading.sides.to_possible_value();
+    sides.map_or_else(String::new, |v| v.get_name().to_owned())
 }
 
 /// A row a point, with what an earlier sweep found of it; rows of points that are not asked for now
@@ -138,7 +180,7 @@ fn rows_to_solve(
     points: &[SweepSettings],
     key: &SweepKey,
 ) -> Result<Vec<SweepRow>, CliError> {
-    let path = command.out.join("sweep.json");
+    let path = command.out.join(TABLE);
     let mut kept = match command.resume && path.exists() {
         true => read_sweep(&path, key).map_err(CliError::Solution)?,
         false => Vec::new(),
@@ -182,7 +224,7 @@ fn solve_all(
                 let done = solves - sweep.left(command.repeats());
                 eprintln!(
                     "certilux: {done} of {solves} solves are in {}; --resume goes on from there",
-                    table.folder.join("sweep.json").display()
+                    table.folder.join(TABLE).display()
                 );
             }
         })?;
@@ -205,7 +247,7 @@ impl Table<'_> {
         let interrupted = &self.session.interrupted;
         let csv = sweep_csv(&self.meta.scene, rows, &names);
         write_text(&self.folder.join("sweep.csv"), &csv, interrupted)?;
-        let json = self.folder.join("sweep.json");
+        let json = self.folder.join(TABLE);
         write_sweep(&json, self.meta, rows, &names, interrupted)?;
         Ok(())
     }
@@ -278,7 +320,7 @@ impl Table<'_> {
         }
         for file in [
             "sweep.csv",
-            "sweep.json",
+            TABLE,
             "error-seconds.svg",
             "error-seconds.png",
             "error-rays.svg",

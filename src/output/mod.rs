@@ -31,6 +31,7 @@ mod level_frame;
 mod mean_value;
 mod occluder_mesh;
 mod occluder_sheets;
+mod outputs_block;
 mod overlay;
 mod panel;
 mod panel_reflectance;
@@ -76,6 +77,7 @@ pub use face_errors::errors_of_faces;
 pub use fingerprint::{ContentBlock, Fingerprint, HashText, file_hash, scene_hash};
 pub use glb_file::write_glb;
 pub use occluder_mesh::{OccluderSummary, write_occluders};
+pub use outputs_block::{OutputsBlock, read_outputs, replace_outputs};
 pub use picture::{Picture, Pixel};
 pub use ply_reader::read_ply;
 pub use ply_writer::write_ply;
@@ -83,7 +85,7 @@ pub use png_file::write_png;
 pub use ray_density::{RaysByReceiver, ray_density};
 pub use reference_comparison::{ComparisonError, solved_lights, true_faces};
 pub use reference_file::{
-    ReferenceFace, ReferenceMeta, mean_radiosity, read_reference, write_reference,
+    ReferenceFace, ReferenceMeta, ReferenceRequest, mean_radiosity, read_reference, write_reference,
 };
 pub use report::{ReportError, write_report};
 pub use solved_mesh::{SolvedFace, SolvedMesh};

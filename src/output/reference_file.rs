@@ -1,7 +1,7 @@
 //! `REF.json`: radiosity a face and side, with standard errors. Written by `certilux reference`, read by
 //! `certilux error`, which takes the files of other programs too.
 
-use super::{OutputError, write_atomically};
+use super::{HashText, OutputError, write_atomically};
 use crate::reference::{FaceRadiosity, Reference};
 use crate::scene::Side;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,8 @@ pub struct ReferenceMeta {
     pub command: Vec<String>,
     /// The OBJ file, or `builtin:NAME`.
     pub scene: String,
+    /// Hash of its content ([`super::scene_hash`]).
+    pub scene_hash: HashText,
     /// Which sides were given to the scene.
     pub sides: String,
     /// Seed of every path.
@@ -57,6 +59,34 @@ pub struct ReferenceMeta {
 impl ReferenceMeta {
     /// Version of the layout.
     pub const FORMAT: u32 = 1;
+}
+
+/// What a reference was asked to be of: those parts of [`ReferenceMeta`] by which one is known again.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct ReferenceRequest {
+    /// Hash of the scene's content.
+    pub scene_hash: HashText,
+    /// Which sides were given to the scene.
+    pub sides: String,
+    /// The asked standard error.
+    pub error: f64,
+    /// The asked limit of time, if any.
+    #[serde(default)]
+    pub max_seconds: Option<f64>,
+}
+
+impl ReferenceRequest {
+    /// What the reference in a file was asked to be of; nothing where the file does not say.
+    pub fn of_file(path: &Path) -> Option<Self> {
+        #[derive(Deserialize)]
+        struct File {
+            meta: ReferenceRequest,
+        }
+        let bytes = fs::read(path).ok()?;
+        serde_json::from_slice::<File>(&bytes)
+            .ok()
+            .map(|file| file.meta)
+    }
 }
 
 /// Area-weighted means of radiosity and of its standard error, mean of the channels, in W/m2.

@@ -1,7 +1,7 @@
 //! Writes `stats.json`: the numbers of one solve, in one fixed order of keys.
 
 use super::solved_mesh::triangle_area;
-use super::{ContentBlock, OutputError, write_atomically};
+use super::{ContentBlock, OutputError, OutputsBlock, write_atomically};
 use crate::math::PolygonId;
 use crate::scene::Scene;
 use crate::solve::{PassStatistics, PowerLedger};
@@ -44,6 +44,8 @@ pub struct StatsFile {
     pub settings: BTreeMap<String, String>,
     /// Hashes of the scene, the settings and the solution.
     pub content: ContentBlock,
+    /// Files beside `solution.ply`, and what each was made with.
+    pub outputs: OutputsBlock,
     /// The input.
     pub scene: SceneBlock,
     /// What was built over it.
@@ -250,6 +252,7 @@ mod tests {
             converge: Some(1e-3),
             settings: BTreeMap::new(),
             content: ContentBlock::default(),
+            outputs: OutputsBlock::new(),
             scene: SceneBlock::new(&room),
             hierarchy: HierarchyBlock::default(),
             passes: vec![PassStatistics::default(); 2],

@@ -153,6 +153,21 @@ passes = 3
         "{}",
         run.stdout
     );
+
+    // Other pictures are other work, though no other light.
+    let list = fs::read_to_string(folder.path("jobs.toml")).unwrap();
+    folder.write(
+        "jobs.toml",
+        list.replace("no-view = true", "format = \"vtu\""),
+    );
+    let light = fs::read(folder.path("out/last/solution.ply")).unwrap();
+    folder
+        .line("batch jobs.toml --out out --resume --only last")
+        .ends_with(0, "other outputs");
+    for name in ["view.png", "view.exr", "solution.vtu"] {
+        assert!(folder.path(format!("out/last/{name}")).exists(), "{name}");
+    }
+    assert!(light == fs::read(folder.path("out/last/solution.ply")).unwrap());
 }
 
 #[test]

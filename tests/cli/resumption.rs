@@ -259,6 +259,90 @@ fn resuming_what_is_done_does_nothing_and_what_was_never_begun_begins_it() {
     }
 }
 
+/// A finished solve is not solved again for other pictures or forms: they are what a solve with these options writes.
+#[test]
+fn resuming_with_other_outputs_makes_them_from_the_solution() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let line = "solve room.obj --epsilon 1e-3 --gradient 0.1 --min-area 1e-3";
+    folder
+        .line(&format!("{line} --no-view --out results"))
+        .ends_with(0, "begun");
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    let without_outputs = |results: &str| {
+        let mut stats = folder.stats(results);
+        for key in ["outputs", "command", "seconds"] {
+            stats.as_object_mut().unwrap().remove(key).unwrap();
+        }
+        for pass in stats["passes"].as_array_mut().unwrap() {
+            pass.as_object_mut().unwrap().remove("seconds").unwrap();
+        }
+        stats
+    };
+    let solved = read("results/stats.json");
+    let mut made = vec!["solution.ply".to_owned(), "stats.json".to_owned()];
+    for (round, (options, says, names)) in [
+        ("", "view.exr, view.png\n", "view.exr view.png"),
+        (
+            "--up z --format glb,vtu",
+            "solution.glb, solution.vtu, view.exr (--up z instead of auto), view.png (--up z instead of auto)\n",
+            "solution.glb solution.vtu view.exr view.png",
+        ),
+        (
+            "--no-view --up x --format glb",
+            "solution.glb (--up x instead of z)\n",
+            "solution.glb",
+        ),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let run = folder.line(&format!("{line} --resume {options} --out results"));
+        run.ends_with(0, options);
+        assert!(run.stdout.contains(says), "{options}: {}", run.stdout);
+        assert!(!run.stdout.contains("exchanges"), "solved again: {}", run.stdout);
+        let fresh = format!("fresh{round}");
+        folder
+            .line(&format!("{line} {options} --out {fresh}"))
+            .ends_with(0, options);
+        for name in names.split(' ') {
+            let same = read(&format!("results/{name}")) == read(&format!("{fresh}/{name}"));
+            assert!(same, "{options}: {name}");
+            made.push(name.to_owned());
+        }
+        assert_eq!(without_outputs("results"), without_outputs(&fresh));
+        made.sort();
+        made.dedup();
+        // What was made before and not asked for now is of the same light, and stays.
+        assert_eq!(folder.names("results"), made, "{options}");
+
+        let before = read("results/stats.json");
+        let again = folder.line(&format!("{line} --resume {options} --out results"));
+        again.ends_with(0, options);
+        assert!(again.stdout.contains("already"), "{}", again.stdout);
+        assert_eq!(before, read("results/stats.json"));
+    }
+    // Times and command are those of the solve.
+    let key = |text: &[u8], key: &str| {
+        let stats: serde_json::Value = serde_json::from_slice(text).unwrap();
+        stats[key].clone()
+    };
+    for name in ["command", "seconds"] {
+        assert_eq!(key(&solved, name), key(&read("results/stats.json"), name));
+    }
+
+    // A file that was lost is made again; a solve of other light leaves none of the old.
+    fs::remove_file(folder.path("results/view.exr")).unwrap();
+    folder
+        .line(&format!("{line} --up z --resume --out results"))
+        .ends_with(0, "lost");
+    assert!(folder.path("results/view.exr").exists());
+    folder
+        .line(&format!("{line} --seed 7 --no-view --resume --out results"))
+        .ends_with(0, "other light");
+    assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
+}
+
 /// A checkpoint that cannot be written costs a warning, not the solve.
 #[test]
 fn a_checkpoint_that_cannot_be_written_is_no_failure() {

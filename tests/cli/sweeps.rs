@@ -236,8 +236,36 @@ fn a_sweep_measures_its_own_reference_and_goes_on() {
     let now = fs::read(folder.path("results/reference.json")).unwrap();
     assert!(reference == now, "the reference is kept");
 
-    // What is of another sweep, cut or no sweep at all is refused and left alone.
+    // A reference that rows were compared with stays, and says so where another was asked for.
+    let finer = |resume: &str| {
+        folder.line(&format!(
+            "sweep room.obj --out results --reference-error 0.04 --technique normal --rays 8 --gradient 0.1 --min-area 1e-3 \
+             --stride auto --occluders 8 --occluder-size 1e-4 --flatness 1 --converge 1e-2 --repeat 1 --epsilon 3e-3 {resume}"
+        ))
+    };
+    finer("--resume").ends_with(0, "another reference").says(&[
+        "reference.json is kept",
+        "0.05",
+        "not a standard error of 0.04",
+    ]);
+    let kept = fs::read(folder.path("results/reference.json")).unwrap();
+    assert!(reference == kept, "the reference is kept");
+    // One that no row knows serves only if it is the one asked for.
     let good = fs::read_to_string(folder.path("results/sweep.json")).unwrap();
+    fs::remove_file(folder.path("results/sweep.json")).unwrap();
+    sweep("--repeat 1 --epsilon 3e-3 --resume").ends_with(0, "no rows");
+    let kept = fs::read(folder.path("results/reference.json")).unwrap();
+    assert!(reference == kept, "the reference is kept");
+    fs::remove_file(folder.path("results/sweep.json")).unwrap();
+    let run = finer("--resume");
+    run.ends_with(0, "a new reference");
+    assert_eq!(run.stderr, "");
+    let meta = json(&folder, "results/reference.json")["meta"].clone();
+    assert_eq!(meta["error"], 0.04);
+    folder.write("results/reference.json", &reference);
+    folder.write("results/sweep.json", &good);
+
+    // What is of another sweep, cut or no sweep at all is refused and left alone.
     let threads = "\"threads\": ";
     for bad in [
         String::new(),
