@@ -1,6 +1,6 @@
 //! Irradiance that a triangle of unit radiosity casts on many points of a plane, eight at a time.
 //!
-//! The same three rules as [`super::form_factor::triangle_vector`], which is its scalar twin and its
+//! The same three rules as [`super::triangle_vector::triangle_vector`], which is its scalar twin and its
 //! test: Lambert's contour integral clipped to the receiver's horizon nearby, a quadrature farther
 //! off, the centroid from afar. An octet takes the rule that its nearest point asks for.
 

@@ -1,8 +1,8 @@
 //! The eight-wide irradiance against its scalar twin.
 
 use super::composite_rule::CompositeRule;
-use super::form_factor::triangle_vector;
 use super::irradiance_kernel::{Shining, irradiance_on};
+use super::triangle_vector::triangle_vector;
 use glam::Vec3;
 use proptest::prelude::*;
 

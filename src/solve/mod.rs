@@ -14,7 +14,9 @@ mod facet_table;
 mod fixture;
 mod form_factor;
 mod form_factor_bound;
+mod form_factor_estimate;
 mod guarantees;
+mod harvest;
 mod irradiance_kernel;
 #[cfg(test)]
 mod irradiance_tests;
@@ -45,8 +47,10 @@ mod solution;
 mod solve;
 #[cfg(test)]
 mod solve_tests;
+mod solver;
 mod statistics;
 mod task;
+mod triangle_vector;
 mod walk;
 
 pub use claim_check::{ClaimCheck, Contradiction};
@@ -62,6 +66,7 @@ pub use planted::{Regression, plant};
 pub use prepared::{PreparedScene, StageSeconds};
 pub use snapshot::{Snapshot, SnapshotError};
 pub use solution::{PatchPath, Solution, SolvedPatch, split_triangle};
-pub use solve::{Solved, Solver, resume, solve};
+pub use solve::{Solved, resume, solve};
+pub use solver::Solver;
 pub use statistics::{PassStatistics, PowerLedger};
 pub use task::PassOutcome;

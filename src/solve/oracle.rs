@@ -9,8 +9,8 @@
 //! below follows the power instead of the number of pairs, which grows with the square of the scene.
 
 use super::element::{Element, Shape};
-use super::form_factor::oracle_form_factor;
 use super::form_factor_bound::form_factor_bound;
+use super::form_factor_estimate::oracle_form_factor;
 
 /// What to do with a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
