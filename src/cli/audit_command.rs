@@ -3,6 +3,7 @@
 use super::args::AuditCommand;
 use super::error::CliError;
 use super::file_head::FileHead;
+use super::logs;
 use super::progress::Progress;
 use super::result_paths::check_result_paths;
 use super::scene_source::{load_scene, prepare};
@@ -18,6 +19,12 @@ use std::time::Instant;
 /// Solves, audits, reports.
 pub fn run(session: &Session, command: &AuditCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
+    if !config.technique.proves_visibility() {
+        logs::warn(format_args!(
+            "--technique {} proves nothing, so there is nothing to audit",
+            config.technique.name()
+        ));
+    }
     check_result_paths(&command.json)?;
     with_threads(command.scene.reading.threads, || {
         audit_and_report(session, command, &config)

@@ -16,9 +16,10 @@ use crate::experiment::{
 use crate::occluder::OccluderConfig;
 use crate::output::write_json;
 use crate::scene::{LoadConfig, SidesMode};
-use crate::solve::{PreparedScene, Silent, SolveConfig, Technique};
+use crate::solve::{Observer, PreparedScene, SolveConfig, Technique};
 use serde_json::json;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Instruction set of every run: bits, and so counts, depend on it.
 const ISA: &str = "avx2";
@@ -111,18 +112,21 @@ fn run_suite(session: &Session, which: SuiteArg) -> Result<Baseline, CliError> {
         if !session.quiet {
             logs::note(format_args!("{}", case.scene));
         }
-        run_case(case, &mut now)?;
-        if session
-            .interrupted
-            .load(std::sync::atomic::Ordering::Relaxed)
-        {
-            return Err(CliError::Interrupted);
-        }
+        run_case(session, case, &mut now)?;
     }
     Ok(now)
 }
 
-fn run_case(case: &SuiteCase, now: &mut Baseline) -> Result<(), CliError> {
+/// Tells a solve nothing but whether it is to stop.
+struct Stoppable<'a>(&'a AtomicBool);
+
+impl Observer for Stoppable<'_> {
+    fn interrupted(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+fn run_case(session: &Session, case: &SuiteCase, now: &mut Baseline) -> Result<(), CliError> {
     let config = SolveConfig {
         epsilon: case.epsilon,
         rays: case.rays,
@@ -136,8 +140,10 @@ fn run_case(case: &SuiteCase, now: &mut Baseline) -> Result<(), CliError> {
         isa: Some(ISA),
         ..DeviceConfig::default()
     };
-    let prepared = PreparedScene::new(scene, SidesMode::Auto, config.seed, &device)?
-        .with_guarantees(Technique::Blockers, &OccluderConfig::default());
+    let prepared = session.stops_at_once(|| {
+        PreparedScene::new(scene, SidesMode::Auto, config.seed, &device)
+            .map(|p| p.with_guarantees(Technique::Blockers, &OccluderConfig::default()))
+    })?;
     let rows = compare(
         &prepared,
         &config,
@@ -146,7 +152,7 @@ fn run_case(case: &SuiteCase, now: &mut Baseline) -> Result<(), CliError> {
             passes: case.passes,
             repeat: case.repeat,
         },
-        &Silent,
+        &Stoppable(&session.interrupted),
     )?;
     now.key.embree = prepared.embree_version.to_string();
     let occluders = prepared.guarantees.as_ref().map(|g| g.occluders.len());

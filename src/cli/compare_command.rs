@@ -3,6 +3,7 @@
 use super::args::CompareCommand;
 use super::error::CliError;
 use super::file_head::FileHead;
+use super::logs;
 use super::progress::Progress;
 use super::result_paths::check_result_paths;
 use super::scene_source::{load_named, prepare};
@@ -45,7 +46,23 @@ struct SceneSettings {
 
 /// Runs the comparison and writes what was asked for; the table goes to standard output.
 pub fn run(session: &Session, command: &CompareCommand) -> Result<(), CliError> {
+    // What it measures are times; a check in between would be most of them.
+    if command.solve.check_claims {
+        return Err(CliError::Argument(
+            "--check-claims: compare measures times; solve and audit check claims".to_owned(),
+        ));
+    }
     let config = command.solve.config()?;
+    if config.technique != SolveConfig::default().technique {
+        logs::warn(format_args!(
+            "--technique is not used: --techniques says what is put beside normal"
+        ));
+    }
+    if command.solve.converge.is_some() {
+        logs::warn(format_args!(
+            "--converge is not used: compare runs a fixed number of passes, --passes"
+        ));
+    }
     check_result_paths(
         [&command.csv, &command.json, &command.markdown]
             .into_iter()
@@ -67,12 +84,15 @@ fn compare_all(
     let mut embree = String::new();
     // A scene that cannot be read is better known before the first is solved than after the last but one.
     let read = |name: &String| load_named(name.as_ref(), &command.reading);
-    let loaded = (command.scenes.iter().map(read)).collect::<Result<Vec<_>, _>>()?;
+    let loaded = session
+        .stops_at_once(|| (command.scenes.iter().map(read)).collect::<Result<Vec<_>, _>>())?;
     for (name, scene) in command.scenes.iter().zip(loaded) {
         let table = name.strip_prefix("builtin:").and_then(table_settings);
         let scene_config = settings_for(command, config, table);
-        let prepared = prepare(scene, &command.reading, config.seed)?
-            .with_guarantees(Technique::Blockers, &command.solve.occluders.config());
+        let prepared = session.stops_at_once(|| {
+            prepare(scene, &command.reading, config.seed)
+                .map(|p| p.with_guarantees(Technique::Blockers, &command.solve.occluders.config()))
+        })?;
         let passes = command
             .solve
             .passes

@@ -3,17 +3,15 @@
 use super::args::{Cli, CompletionsCommand, ManCommand};
 use super::error::CliError;
 use super::render::make_folder;
-use super::session::Session;
+use super::session::{Session, print_text};
 use crate::output::write_text;
 use clap::CommandFactory;
-use std::io::Write;
 
 /// Prints the completions of a shell.
 pub fn completions(command: &CompletionsCommand) -> Result<(), CliError> {
     let mut script = Vec::new();
     clap_complete::generate(command.shell, &mut Cli::command(), "certilux", &mut script);
-    // A reader that left early is no failure, as with any line that is printed.
-    let _ = std::io::stdout().write_all(&script);
+    print_text(&script);
     Ok(())
 }
 

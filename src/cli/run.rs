@@ -3,7 +3,7 @@
 use super::args::{Cli, Command};
 use super::defaults::{self, Filled};
 use super::error::CliError;
-use super::session::Session;
+use super::session::{Session, check_printed};
 use super::{
     audit_command, batch_child, batch_command, bench_command, clusters_command, compare_command,
     error_budget_command, error_command, generate_command, interrupt, logs, manual_commands,
@@ -38,7 +38,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         interrupted: interrupt.raised,
         idle: interrupt.idle,
     };
-    dispatch(&session, &cli).map_err(|error| match error {
+    let done = dispatch(&session, &cli).and_then(|()| check_printed());
+    done.map_err(|error| match error {
         // Whoever did not type the flag is told who did.
         CliError::Config(error) => match sources.get(error.flag.trim_start_matches('-')) {
             Some(source) => CliError::Argument(format!("{source}: {error}")),

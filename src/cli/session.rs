@@ -1,9 +1,10 @@
 //! What every command is given beside its own arguments.
 
+use super::error::CliError;
 use std::fmt;
-use std::io::Write;
-use std::sync::Arc;
+use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// The run of the program that a command belongs to.
 pub struct Session {
@@ -29,13 +30,39 @@ impl Session {
     /// A line of the summary on standard output; nothing with `--quiet`.
     pub fn say(&self, line: fmt::Arguments<'_>) {
         if !self.quiet {
-            print_line(line);
+            tell(line);
         }
     }
 }
 
-/// A line on standard output. A reader that left early, such as `head`, is no failure: the results
-/// are in files.
+/// A line of a summary on standard output. Nothing is lost where nobody takes it: the results are in files.
+pub fn tell(line: fmt::Arguments<'_>) {
+    let _ = writeln!(io::stdout(), "{line}");
+}
+
+/// What was printed as a result and not taken, the first time.
+static LOST: OnceLock<io::Error> = OnceLock::new();
+
+/// A line of results on standard output; [`check_printed`] tells whether all were taken.
 pub fn print_line(line: fmt::Arguments<'_>) {
-    let _ = writeln!(std::io::stdout(), "{line}");
+    print_text(format!("{line}\n").as_bytes());
+}
+
+/// Results on standard output.
+pub fn print_text(text: &[u8]) {
+    let mut out = io::stdout();
+    if let Err(error) = out.write_all(text).and_then(|()| out.flush()) {
+        // One that is there already was first.
+        let _ = LOST.set(error);
+    }
+}
+
+/// Fails where results were printed and lost, as on a full disk. A reader that left early, such as `head`, had enough.
+pub fn check_printed() -> Result<(), CliError> {
+    match LOST.get() {
+        Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::System(format!(
+            "cannot write to standard output: {error}"
+        ))),
+        _ => Ok(()),
+    }
 }

@@ -1,6 +1,6 @@
 //! The few lines a person reads at the end of a solve.
 
-use super::session::print_line;
+use super::session::tell;
 use crate::output::StatsFile;
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     };
     let exchanges: u64 = stats.passes.iter().map(|p| p.exchanges).sum();
     let rays: u64 = stats.passes.iter().map(|p| p.rays).sum();
-    print_line(format_args!(
+    tell(format_args!(
         "{}: {} polygons, {} leaf patches, {} channel(s), Embree {}",
         stats.scene.path,
         stats.scene.polygons,
@@ -24,13 +24,13 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         stats.scene.channels,
         stats.embree
     ));
-    print_line(format_args!(
+    tell(format_args!(
         "{} pass(es), {exchanges} exchanges, {rays} rays, technique {}, {} thread(s)",
         stats.passes.len(),
         stats.technique,
         stats.threads
     ));
-    print_line(format_args!(
+    tell(format_args!(
         "power: {:.4} W emitted = {:.2} % absorbed + {:.2} % escaped (+- {:.2}) + {:.3} % unshot; imbalance {:+.3} %",
         power.emitted,
         share(power.absorbed),
@@ -42,16 +42,16 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     if let Some(scales) = &stats.row_scales {
         let least = scales.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = scales.iter().copied().fold(0.0, f64::max);
-        print_line(format_args!(
+        tell(format_args!(
             "row normalisation: what arrived in a pass was scaled by {least:.6} to {greatest:.6}"
         ));
     }
     let s = &stats.seconds;
-    print_line(format_args!(
+    tell(format_args!(
         "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, solve {:.2}, output {:.2}",
         s.load, s.embree, s.cluster, s.solve, s.output
     ));
     for file in files {
-        print_line(format_args!("wrote {}", file.display()));
+        tell(format_args!("wrote {}", file.display()));
     }
 }

@@ -144,15 +144,20 @@ pub fn comparison_markdown(
         "\n| technique | rows | speed-up, geometric mean | first passes | later passes | worst row | best row | fewer rays, times |\n\
          |---|---|---|---|---|---|---|---|\n",
     );
+    // A table of first passes alone has no mean of later ones.
+    let mean = |x: f64| match x > 0.0 {
+        true => format!("{x:.2}"),
+        false => "-".to_owned(),
+    };
     for s in summaries {
         let _ = writeln!(
             text,
-            "| {} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} |",
+            "| {} | {} | {} | {} | {} | {:.2} | {:.2} | {:.1} |",
             s.technique.name(),
             s.rows,
-            s.speedup,
-            s.speedup_first,
-            s.speedup_later,
+            mean(s.speedup),
+            mean(s.speedup_first),
+            mean(s.speedup_later),
             s.worst,
             s.best,
             s.fewer_rays

@@ -86,3 +86,39 @@ fn a_baseline_that_is_none_is_refused_before_the_suite_runs() {
         .line("bench --check missing.json")
         .ends_with(2, "missing");
 }
+
+/// Flags of a solve that mean nothing to a comparison are not passed over in silence.
+#[test]
+fn flags_that_are_not_used_are_said() {
+    let folder = Folder::new();
+    let line =
+        "compare builtin:cornell --repeat 1 --passes 1 --epsilon 1e-2 --techniques occlusion";
+    let run = folder.line(line);
+    run.ends_with(0, "plain");
+    assert_eq!(run.stderr, "");
+    // No later pass: no mean of later passes.
+    let summary = run.stdout.lines().rev().find(|l| l.contains("occlusion"));
+    assert!(summary.unwrap().contains("| - |"), "{}", run.stdout);
+    for (flag, word) in [
+        ("--technique normal", "--techniques"),
+        ("--quality draft --technique blockers", "--techniques"),
+    ] {
+        let run = folder.line(&format!("{line} {flag}"));
+        run.ends_with(0, flag).says(&["warning", word]);
+    }
+    folder
+        .line(&format!(
+            "{} --converge 0.5",
+            line.replace(" --passes 1", "")
+        ))
+        .ends_with(0, "converge")
+        .says(&["warning", "--converge is not used"]);
+    folder
+        .line(&format!("{line} --check-claims"))
+        .ends_with(2, "check")
+        .says(&["--check-claims"]);
+    folder
+        .line("audit builtin:cornell --epsilon 1e-2 --technique normal")
+        .ends_with(0, "audit")
+        .says(&["--technique normal proves nothing"]);
+}

@@ -144,3 +144,32 @@ fn a_disk_that_runs_full() {
         Err(error) => println!("no disk can be made here: {error}"),
     }
 }
+
+/// Results that are printed are either taken or missed; a summary is neither, and a reader that left had enough.
+#[cfg(target_os = "linux")]
+#[test]
+fn printed_results_that_are_lost_are_an_error() {
+    let (folder, _) = solved();
+    for (line, code) in [
+        ("completions bash", 3),
+        ("generate --list", 3),
+        ("generate cornell --out scenes", 0),
+        ("solve room.obj --out results --no-view --epsilon 1e-2", 0),
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let full = fs::OpenOptions::new().write(true).open("/dev/full");
+        let mut command = folder.command(&words);
+        let run = Outcome::of(command.stdout(full.unwrap()).output().unwrap());
+        run.ends_with(code, line);
+        if code != 0 {
+            run.says(&["cannot write to standard output"]);
+        }
+    }
+    // A pipe whose reader is gone before anything is written.
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut command = folder.command(&["completions", "bash"]);
+    let run = Outcome::of(command.stdout(writer).output().unwrap());
+    run.ends_with(0, "no reader");
+    assert_eq!(run.stderr, "");
+}

@@ -104,3 +104,14 @@ fn a_stopped_sweep_keeps_what_was_solved_and_goes_on() {
     };
     assert_eq!(row(&kept), row(&resumed));
 }
+
+/// A suite is many solves, of minutes each where they are the paper's.
+#[test]
+fn a_stopped_suite_ends_in_the_middle_of_a_solve() {
+    let folder = Folder::new();
+    let line = "bench --suite paper --no-instructions --record now.json";
+    stopped(&folder, line, Signal::INT, Duration::from_secs(3))
+        .ends_with(130, "interrupted")
+        .says(&["interrupted"]);
+    assert!(folder.names(".").is_empty());
+}

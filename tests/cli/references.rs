@@ -149,6 +149,25 @@ fn references_of_others_need_the_scene_for_their_materials() {
     assert_eq!(bare.ends_with(0, "bare").stdout, full.stdout);
 }
 
+/// A reference of another scene is told by the areas of its faces.
+#[test]
+fn faces_of_another_size_are_named() {
+    let folder = measured_room();
+    let mut file = by_hand(true);
+    // Another program's digits.
+    file["faces"][0]["area"] = json!(4.0001);
+    folder.write("ref.json", file.to_string());
+    let run = folder.line("error solved ref.json");
+    run.ends_with(0, "the same scene");
+    assert_eq!(run.stderr, "");
+    file["faces"][1]["area"] = json!(4.4);
+    folder.write("ref.json", file.to_string());
+    folder
+        .line("error solved ref.json")
+        .ends_with(0, "another scene")
+        .says(&["1 of 2 faces have another area", "same scene? 5"]);
+}
+
 #[test]
 fn missing_faces_are_named() {
     let folder = measured_room();
