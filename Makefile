@@ -73,10 +73,10 @@ bench: setup
 deb: setup
 	cargo build --release --locked
 	mkdir -p target/manual
-	target/release/certilux --quiet --no-config man --out target/manual/man1
-	target/release/certilux completions bash > target/manual/certilux.bash
-	target/release/certilux completions zsh > target/manual/_certilux
-	target/release/certilux completions fish > target/manual/certilux.fish
+	cargo run --release --locked --quiet -- --quiet --no-config man --out target/manual/man1
+	for shell in bash:certilux.bash zsh:_certilux fish:certilux.fish; do \
+		cargo run --release --locked --quiet -- completions $${shell%:*} >target/manual/$${shell#*:} || exit 1; \
+	done
 	cargo deb --no-build --locked
 
 # The baseline is recorded anew, on a quiet machine and with valgrind installed, by whoever changes counts on purpose:
