@@ -6,6 +6,7 @@
 use super::args::Cli;
 use super::error::CliError;
 use super::flag_vocabulary::{FlagVocabulary, first_sentence};
+use super::variables::{FILE_VARIABLE, doubtful_variables, variable};
 use crate::job::{
     Setting, SettingValue, SettingsFile, Vocabulary, override_settings, read_settings_file,
 };
@@ -17,10 +18,6 @@ use std::path::{Path, PathBuf};
 
 /// The configuration file, in the current folder.
 const FILE_NAME: &str = "certilux.toml";
-/// Names another configuration file.
-const FILE_VARIABLE: &str = "CERTILUX_CONFIG";
-/// What the variables of flags begin with.
-const PREFIX: &str = "CERTILUX_";
 /// Flags that no file or variable may give: the first would contradict itself, the others are decisions about one run.
 pub const NEVER_DEFAULT: [&str; 5] = ["no-config", "list", "resume", "only", "list-names"];
 
@@ -30,6 +27,8 @@ pub struct Filled {
     pub cli: Cli,
     /// Where each flag came from that was not on the command line.
     pub sources: BTreeMap<String, String>,
+    /// What looks like a mistake.
+    pub warnings: Vec<String>,
 }
 
 /// Parses `arguments`, the program's name first, and fills in the defaults.
@@ -41,12 +40,17 @@ pub fn parse(arguments: &[OsString]) -> Result<Filled, CliError> {
     let given = Filled {
         cli: Cli::from_arg_matches(&matches)?,
         sources: BTreeMap::new(),
+        warnings: Vec::new(),
     };
     let Some((name, sub)) = matches.subcommand().filter(|_| !given.cli.no_config) else {
         return Ok(given);
     };
     let Some(vocabulary) = FlagVocabulary::of(name, &NEVER_DEFAULT) else {
         return Ok(given);
+    };
+    let given = Filled {
+        warnings: doubtful_variables(std::env::vars_os().map(|(name, _)| name), &NEVER_DEFAULT),
+        ..given
     };
     let levels = Levels::read(name, &vocabulary)?;
     let typed = typed_flags(&vocabulary, sub);
@@ -78,6 +82,7 @@ pub fn parse(arguments: &[OsString]) -> Result<Filled, CliError> {
     Ok(Filled {
         cli,
         sources: sources.collect(),
+        warnings: given.warnings,
     })
 }
 
@@ -144,11 +149,6 @@ impl Levels {
         };
         levels.into_iter().map(with_place).collect()
     }
-}
-
-/// The variable of a flag: `CERTILUX_MIN_AREA` for `min-area`.
-fn variable(key: &str) -> String {
-    format!("{PREFIX}{}", key.replace('-', "_").to_uppercase())
 }
 
 fn environment(vocabulary: &FlagVocabulary) -> Result<Vec<Setting>, CliError> {

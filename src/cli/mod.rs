@@ -49,6 +49,7 @@ mod sweep_args;
 mod sweep_command;
 mod sweep_progress;
 mod typed_number;
+mod variables;
 mod view_args;
 mod view_command;
 mod view_exhibit;

@@ -19,7 +19,11 @@ use std::ffi::OsString;
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     batch_child::end_with_batch();
-    let Filled { cli, sources } = match defaults::parse(&arguments) {
+    let Filled {
+        cli,
+        sources,
+        warnings,
+    } = match defaults::parse(&arguments) {
         Ok(filled) => filled,
         Err(error) => {
             // Whoever reads lines of JSON is told in JSON what was wrong with the rest.
@@ -28,6 +32,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         }
     };
     logs::install(cli.json_logs)?;
+    for warning in &warnings {
+        logs::warn(format_args!("{warning}"));
+    }
     let rest = arguments.iter().skip(1);
     let interrupt = interrupt::install()?;
     let session = Session {

@@ -118,6 +118,18 @@ fn files_that_cannot_be_used_are_refused_with_the_line() {
             .ends_with(2, name)
             .says(&[words]);
     }
+    // A name that looks like that of a variable is worth a word; one that does not may be another program's.
+    for (name, words) in [
+        ("CERTILUX_EPSILOM", "did you mean CERTILUX_EPSILON?"),
+        ("CERTILUX_RESUME", "on the command line only"),
+        ("CERTILUX_DEBIAN13", ""),
+    ] {
+        let run = solve(&folder, "--epsilon 1e-3", &[(name, "1")]);
+        run.ends_with(0, name).says(&[words]);
+        assert_eq!(run.stderr.is_empty(), words.is_empty(), "{}", run.stderr);
+        let run = solve(&folder, "--epsilon 1e-3 --no-config", &[(name, "1")]);
+        assert_eq!(run.ends_with(0, name).stderr, "");
+    }
     // A typed flag cannot be wrong because of a variable that it overrules.
     solve(
         &folder,
