@@ -5,11 +5,12 @@ use super::audit_report::{AuditReport, Flaw};
 use super::continuous_surface::{SurfaceProof, prove_surface};
 use crate::cluster::Hierarchy;
 use crate::embree::DeviceConfig;
+use crate::math::Aabb;
 use crate::occluder::{Occluder, OccluderConfig, OccluderSet, SlabRectangle};
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, SidesMode, load_text};
 use crate::solve::{Guarantees, PreparedScene, Silent, SolveConfig, Stop, Stride, Technique};
-use crate::visibility::Faults;
+use crate::visibility::{EmptyBoxes, Faults};
 use glam::{Vec2, Vec3};
 use std::fmt::Write;
 
@@ -65,12 +66,16 @@ fn room_with(quads: &[[Vec3; 4]]) -> PreparedScene {
     prepare(&obj, MTL, "m.mtl")
 }
 
+/// Asked often, whether it pays or not: many claims.
 fn audit_of(prepared: &PreparedScene) -> AuditReport {
+    audit_at(prepared, Stride::Every(SolveConfig::PAPER_STRIDE))
+}
+
+fn audit_at(prepared: &PreparedScene, stride: Stride) -> AuditReport {
     let solve = SolveConfig {
         epsilon: 1.0e-4,
         stop: Stop::Passes(1),
-        // Asked often, whether it pays or not: many claims.
-        stride: Stride::Every(SolveConfig::PAPER_STRIDE),
+        stride,
         ..SolveConfig::default()
     };
     let config = AuditConfig {
@@ -286,6 +291,28 @@ fn a_shaft_test_that_forgets_slivers_is_found() {
         ..Faults::NONE
     };
     let report = audit_of(&with_faults(prepared, faults));
+    assert!(finds(&report, |f| matches!(f, Flaw::PolygonInShaft { .. })));
+    assert!(finds(&report, is_segment));
+}
+
+#[test]
+fn a_box_of_air_that_furniture_reaches_into_is_found() {
+    let prepared = builtin("cornell");
+    let clean = audit_at(&prepared, Stride::Auto);
+    assert!(!clean.is_refuted() && clean.visibility_claims > 100);
+    // By a hundredth of the scene on each side: into the blocks, and out through the walls.
+    let by = 1.0e-2 * prepared.scene.bounds().diagonal();
+    let mut guarantees = prepared.guarantees.clone().expect("built");
+    let grown = guarantees.empty_boxes.boxes().iter().map(|b| Aabb {
+        min: b.min - by,
+        max: b.max + by,
+    });
+    guarantees.empty_boxes = EmptyBoxes::planted(grown.collect());
+    let planted = PreparedScene {
+        guarantees: Some(guarantees),
+        ..prepared
+    };
+    let report = audit_at(&planted, Stride::Auto);
     assert!(finds(&report, |f| matches!(f, Flaw::PolygonInShaft { .. })));
     assert!(finds(&report, is_segment));
 }

@@ -72,6 +72,7 @@ impl<const C: usize> Task<'_, '_, C> {
         if oracle.refines_receiver(&receiver.element, greatest, residual) {
             return Next::SplitReceiver;
         }
+        let known = self.look_for_air(source, receiver, known);
         let packets = packets_of_exchange(self.pass.config.rays);
         let queries = match &mut self.prover {
             Some(prover) => prover.plan_before_exchange(known.knowledge, packets),

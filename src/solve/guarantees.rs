@@ -6,7 +6,10 @@ use crate::occluder::{OccluderConfig, OccluderSet, SlabRectangle, extract_occlud
 use crate::scene::Scene;
 #[cfg(any(test, feature = "plant-faults"))]
 use crate::visibility::Faults;
-use crate::visibility::{OccluderTree, SceneTree, SurvivorList, Tolerance, VisibilityQuery};
+use crate::visibility::{
+    EmptyBoxes, OccluderTree, SceneTree, SurvivorList, Tolerance, VisibilityQuery,
+};
+use glam::Vec3;
 use std::time::Instant;
 
 /// The occluders and the scene as shafts meet them. Techniques that prove nothing have none of it.
@@ -18,6 +21,8 @@ pub struct Guarantees {
     pub occluders: OccluderTree,
     /// The polygons.
     pub scene: SceneTree,
+    /// Boxes of air, where anyone has looked for them ([`Self::with_empty_boxes`]).
+    pub empty_boxes: EmptyBoxes,
     /// The list with which the topmost pair starts.
     pub whole_scene: SurvivorList,
     /// Wall time of it all.
@@ -61,11 +66,21 @@ impl Guarantees {
             occluders: OccluderTree::build(&slabs, Tolerance::of_scene(scene.bounds())),
             whole_scene: SurvivorList::whole_scene(&tree),
             scene: tree,
+            empty_boxes: EmptyBoxes::default(),
             occluder_set,
             seconds: start.elapsed().as_secs_f64(),
             #[cfg(any(test, feature = "plant-faults"))]
             faults: Faults::NONE,
         }
+    }
+
+    /// The same with the boxes of air that hold many of `sights`: pairs of points that see each other.
+    #[must_use]
+    pub fn with_empty_boxes(mut self, sights: &[[Vec3; 2]]) -> Self {
+        let start = Instant::now();
+        self.empty_boxes = EmptyBoxes::build(&self.scene, sights);
+        self.seconds += start.elapsed().as_secs_f64();
+        self
     }
 
     /// The same with faults planted in the engine, before any claim is made.
@@ -87,6 +102,6 @@ impl Guarantees {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.occluders.bytes() + self.scene.bytes()
+        self.occluders.bytes() + self.scene.bytes() + self.empty_boxes.bytes()
     }
 }

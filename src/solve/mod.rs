@@ -39,6 +39,7 @@ mod radiosity;
 #[cfg(test)]
 mod roulette_tests;
 mod sampled_element;
+mod sights;
 mod snapshot;
 #[cfg(test)]
 mod snapshot_tests;

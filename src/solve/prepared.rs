@@ -2,6 +2,7 @@
 
 use super::config::Technique;
 use super::guarantees::Guarantees;
+use super::sights::draw_sights;
 use crate::cluster::{ClusterConfig, Hierarchy, build_hierarchy};
 use crate::embree::{CommittedScene, Device, DeviceConfig, EmbreeError, EmbreeVersion};
 use crate::occluder::OccluderConfig;
@@ -68,7 +69,12 @@ impl PreparedScene {
     #[must_use]
     pub fn with_guarantees(mut self, technique: Technique, occluders: &OccluderConfig) -> Self {
         self.guarantees =
-            Guarantees::for_technique(&self.scene, &self.hierarchy, technique, occluders);
+            Guarantees::for_technique(&self.scene, &self.hierarchy, technique, occluders).map(
+                |g| {
+                    let sights = draw_sights(&self.scene, &self.hierarchy, &self.embree);
+                    g.with_empty_boxes(&sights)
+                },
+            );
         self
     }
 }

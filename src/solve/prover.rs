@@ -4,12 +4,14 @@
 //! inherit. What is left of the scene in a pair's shaft is handed down to them as a list.
 
 use super::config::{SolveConfig, Stride, Technique};
-use super::element::Element;
+use super::element::{Element, Shape};
 use super::guarantees::Guarantees;
 use super::query_schedule::{Evidence, Occasion, Queries, QuerySchedule};
 use super::statistics::PassStatistics;
+use crate::math::Aabb;
 use crate::visibility::{
-    BlockerList, OcclusionScratch, SurvivorList, Verdict, VisibilityQuery, VisibilityScratch,
+    BlockerList, NearbyBoxes, OcclusionScratch, SurvivorList, Verdict, VisibilityQuery,
+    VisibilityScratch,
 };
 
 /// What is known of a pair by the pairs above it.
@@ -26,6 +28,15 @@ pub struct Knowledge {
 }
 
 impl Knowledge {
+    /// The same, but visible.
+    #[must_use]
+    pub fn visible(self) -> Self {
+        Self {
+            verdict: Verdict::Visible,
+            ..self
+        }
+    }
+
     /// Of the topmost pair.
     pub const NOTHING: Self = Self {
         verdict: Verdict::Unknown,
@@ -96,15 +107,18 @@ pub struct Prover<'a> {
     occlusion: OcclusionScratch,
     visibility: VisibilityScratch,
     schedule: QuerySchedule,
+    /// Empty boxes that reach the task's receivers.
+    boxes: NearbyBoxes,
 }
 
 impl<'a> Prover<'a> {
     /// Ready for the topmost pair; `None` for techniques that prove nothing.
-    /// `schedule` holds what other tasks learned.
+    /// `schedule` holds what other tasks learned; all receivers lie in `receivers`.
     pub fn new(
         guarantees: Option<&'a Guarantees>,
         config: &SolveConfig,
         schedule: &QuerySchedule,
+        receivers: Aabb,
     ) -> Option<Self> {
         let guarantees = guarantees.filter(|_| config.technique.proves_visibility())?;
         let mut prover = Self {
@@ -117,10 +131,24 @@ impl<'a> Prover<'a> {
             occlusion: OcclusionScratch::default(),
             visibility: VisibilityScratch::default(),
             schedule: schedule.clone(),
+            boxes: match config.stride {
+                Stride::Auto => guarantees.empty_boxes.near(receivers),
+                // The paper's schedule, as the paper has it.
+                Stride::Every(_) => NearbyBoxes::default(),
+            },
         };
         prover.make_list(0);
         prover.lists[0].survivors = guarantees.whole_scene.clone();
         Some(prover)
+    }
+
+    /// Whether a box of air holds the pair, of which nothing was known: then it is proved visible.
+    pub fn finds_air(&self, source: &Element, receiver: &Element, knowledge: Knowledge) -> bool {
+        // Nothing holds the boxes of what volume clusters bundle.
+        knowledge.verdict == Verdict::Unknown
+            && source.shape != Shape::Volume
+            && receiver.shape != Shape::Volume
+            && self.boxes.hold(source.bounds, receiver.bounds)
     }
 
     /// What to ask about a pair that is about to be split. `expected` is how many packets of eight rays are likely to be

@@ -205,3 +205,26 @@ fn patch_paths_name_their_steps() {
     assert_eq!(path.level(), 3);
     assert_eq!(path.steps().collect::<Vec<_>>(), [3, 0, 2]);
 }
+
+#[test]
+fn an_empty_room_needs_no_ray() {
+    let scene = furnace(4, 0.5, false);
+    let solve = |technique| {
+        let config = SolveConfig {
+            technique,
+            stop: Stop::Passes(2),
+            ..SolveConfig::default()
+        };
+        run(&scene, &config)
+    };
+    let (normal, visibility) = (solve(Technique::Normal), solve(Technique::Visibility));
+    for (rays, proofs) in normal.passes.iter().zip(&visibility.passes) {
+        assert!(rays.rays > 1_000);
+        assert_eq!(
+            (proofs.rays, proofs.shafts),
+            (0, 0),
+            "the room is one box of air"
+        );
+        assert_eq!(proofs.exchanges_visible, proofs.exchanges);
+    }
+}

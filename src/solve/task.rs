@@ -57,11 +57,12 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         gatherer: &'g mut Gatherer<C>,
         schedule: &QuerySchedule,
     ) -> Self {
+        let receivers = pass.context.elements[gatherer.root.index()].bounds;
         let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
         Self {
             pass,
             gatherer,
-            prover: Prover::new(pass.context.guarantees, pass.config, schedule),
+            prover: Prover::new(pass.context.guarantees, pass.config, schedule, receivers),
             outcome: PassOutcome {
                 claims: ClaimSample::new(pass.config.keep_claims),
                 blocked: ClaimSample::new(pass.config.keep_blocked),
@@ -117,6 +118,27 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
+    /// Known to be visible if a box of air holds both.
+    pub(super) fn look_for_air(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        known: Known,
+    ) -> Known {
+        match &self.prover {
+            Some(prover)
+                if prover.finds_air(&source.element, &receiver.element, known.knowledge) =>
+            {
+                self.outcome.statistics.visible_claims += 1;
+                Known {
+                    knowledge: known.knowledge.visible(),
+                    claim: Some(self.claim(source, receiver, None)),
+                }
+            }
+            _ => known,
+        }
+    }
+
     pub(super) fn prove_before_split(
         &mut self,
         source: &Source,
@@ -124,6 +146,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         greatest: f64,
         known: Known,
     ) -> Known {
+        let known = self.look_for_air(source, receiver, known);
         let Some(prover) = &mut self.prover else {
             return known;
         };
@@ -157,22 +180,28 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         );
         let is_new = proof.knowledge.verdict != known.knowledge.verdict;
         let claim = match is_new {
-            true => Some(Claim {
-                pass: self.pass.pass,
-                source: source.element.name(),
-                receiver: receiver.element.name(),
-                occluder: proof.occluder,
-            }),
+            true => Some(self.claim(source, receiver, proof.occluder)),
             false => known.claim,
         };
-        if let Some(claim) = claim.filter(|_| is_new && self.outcome.claims.is_wanted()) {
-            let key = exchange_key(self.pass.key, &source.element, &receiver.element);
-            self.outcome.claims.offer(key, claim);
-        }
         Known {
             knowledge: proof.knowledge,
             claim,
         }
+    }
+
+    /// A new claim, kept if an audit wants it.
+    fn claim(&mut self, source: &Source, receiver: &Receiver, occluder: Option<u32>) -> Claim {
+        let claim = Claim {
+            pass: self.pass.pass,
+            source: source.element.name(),
+            receiver: receiver.element.name(),
+            occluder,
+        };
+        if self.outcome.claims.is_wanted() {
+            let key = exchange_key(self.pass.key, &source.element, &receiver.element);
+            self.outcome.claims.offer(key, claim);
+        }
+        claim
     }
 
     /// Lets the schedule know what an exchange was found to be.

@@ -2,7 +2,9 @@
 
 mod blockers;
 mod bounds;
+mod box_growth;
 mod crossing;
+mod empty_boxes;
 pub mod exact;
 mod faults;
 mod full_visibility;
@@ -25,6 +27,7 @@ mod wide_tree_builder;
 
 pub use blockers::{BlockerList, SegmentOctet};
 pub use bounds::{BoundsShape, ElementBounds};
+pub use empty_boxes::{EmptyBoxes, NearbyBoxes};
 pub use faults::Faults;
 pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
@@ -40,6 +43,8 @@ pub use verdict::Verdict;
 pub use wide_tree::WideTreeDefect;
 
 #[cfg(test)]
+mod empty_box_proofs;
+#[cfg(test)]
 mod flush_proofs;
 #[cfg(test)]
 mod nasty_pairs;
@@ -47,5 +52,7 @@ mod nasty_pairs;
 mod nasty_scenes;
 #[cfg(test)]
 mod occlusion_proofs;
+#[cfg(test)]
+mod proof_stage;
 #[cfg(test)]
 mod visibility_proofs;

@@ -82,6 +82,11 @@ impl Shaft {
         }
     }
 
+    /// The box of the union with its margins.
+    pub(super) fn bounds(&self) -> (Vec3, Vec3) {
+        (self.low, self.high)
+    }
+
     /// All planes are in: what is inside all of them is inside the shaft.
     pub(super) fn complete(&mut self) {
         self.has_planes = true;
