@@ -126,11 +126,13 @@ pub fn comparison_section(name: &str, comparison: &Comparison) -> String {
 }
 
 fn summary_row(summary: &Summary) -> Vec<Cell> {
+    // A comparison of first passes alone has no mean of later ones.
+    let mean = |x: f64| Cell::maybe((x > 0.0).then_some(x));
     vec![
         Cell::text(&summary.technique),
-        Cell::quantity(summary.speedup),
-        Cell::quantity(summary.speedup_first),
-        Cell::quantity(summary.speedup_later),
+        mean(summary.speedup),
+        mean(summary.speedup_first),
+        mean(summary.speedup_later),
         Cell::quantity(summary.worst),
         Cell::quantity(summary.best),
         Cell::quantity(summary.fewer_rays),
