@@ -1,11 +1,12 @@
 //! One exchange: radiosity x form factor x visibility, and where its visibility comes from (paper, section 4;
 //! design, section 6).
 
+use super::arrival::{Arrival, Flatness, arrival};
 use super::claim_check::Recording;
 use super::claims::Claim;
 use super::config::Technique;
 use super::element::Element;
-use super::form_factor::{Arrival, Flatness, Space, arrival};
+use super::element_vector::Space;
 use super::pair::{Known, Receiver, Source, exchange_key};
 use super::query_schedule::{Evidence, Occasion, Queries};
 use super::task::{Task, packets_of_exchange};

@@ -1,18 +1,19 @@
 //! Cluster hierarchical radiosity without links (paper, section 4).
 
+mod arrival;
 mod claim_check;
 mod claims;
 mod composite_rule;
 mod config;
 mod element;
 mod element_name;
+mod element_vector;
 mod error;
 mod exchange;
 mod facet_frame;
 mod facet_table;
 #[cfg(test)]
 mod fixture;
-mod form_factor;
 mod form_factor_bound;
 mod form_factor_estimate;
 mod guarantees;
