@@ -51,13 +51,19 @@ impl ClaimCheck {
         self.contradictions.is_empty() && self.native_errors.is_empty()
     }
 
-    /// Judges the segments of one exchange that were tested natively, where Embree says otherwise.
+    /// Judges the segments of one exchange that were tested natively, where Embree says otherwise. `cast` holds the same
+    /// segments in the same order.
     pub fn judge_native(
         &mut self,
         scene: &SceneTree,
         native: &[(Vec3, Vec3, bool)],
         cast: &[(Vec3, Vec3, bool)],
     ) {
+        let ends = |&(from, to, _): &(Vec3, Vec3, bool)| (from, to);
+        assert!(
+            native.iter().map(ends).eq(cast.iter().map(ends)),
+            "the same samples are tested twice"
+        );
         self.native_rays += native.len() as u64;
         for (&(from, to, blocked), _) in native
             .iter()

@@ -278,7 +278,6 @@ impl<const C: usize> Task<'_, '_, C> {
             return;
         };
         let mut segments = std::mem::take(&mut self.segments);
-        segments.clear();
         let rays = self.pass.config.rays;
         // Both sets that a technique without proofs might cast.
         for round in 0..2 {
@@ -291,6 +290,7 @@ impl<const C: usize> Task<'_, '_, C> {
         self.outcome
             .check
             .judge(&guarantees.scene, claim, &segments);
+        segments.clear();
         self.segments = segments;
     }
 

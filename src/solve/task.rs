@@ -44,7 +44,7 @@ pub(super) struct Task<'a, 'g, const C: usize> {
     pub(super) gatherer: &'g mut Gatherer<C>,
     pub(super) prover: Option<Prover<'a>>,
     pub(super) outcome: PassOutcome,
-    /// Segments of the exchange whose claim is being checked.
+    /// Segments of the exchange that is being checked; empty in between.
     pub(super) segments: Vec<(Vec3, Vec3, bool)>,
     pub(super) drop_budget: f64,
     pub(super) visits: u32,
