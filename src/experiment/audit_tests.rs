@@ -303,7 +303,7 @@ fn a_box_of_air_that_furniture_reaches_into_is_found() {
     // By a hundredth of the scene on each side: into the blocks, and out through the walls.
     let by = 1.0e-2 * prepared.scene.bounds().diagonal();
     let mut guarantees = prepared.guarantees.clone().expect("built");
-    let grown = guarantees.empty_boxes.boxes().iter().map(|b| Aabb {
+    let grown = guarantees.empty_boxes.boxes().into_iter().map(|b| Aabb {
         min: b.min - by,
         max: b.max + by,
     });
