@@ -9,8 +9,8 @@ use std::f32::consts::TAU;
 
 /// Sights drawn in the smallest scene, and more with its facets: one in eight.
 const LEAST_SIGHTS: usize = 4096;
-/// And never more than this, whose rays and boxes cost a few tenths of a second.
-const MOST_SIGHTS: usize = 65_536;
+/// And never more than this, whose rays and boxes cost a few tenths of a second in a scene of a million polygons.
+const MOST_SIGHTS: usize = 16_384;
 /// One sight in so many starts on an emitter, as all of pass 1 does.
 const FROM_EMITTERS: usize = 4;
 /// Belongs to these draws alone.

@@ -2,7 +2,7 @@
 
 use super::claim_check::ClaimCheck;
 use super::claims::{Claim, ClaimSample};
-use super::config::{SolveConfig, Stop};
+use super::config::{SolveConfig, Stop, Technique};
 use super::error::SolveError;
 use super::observer::Observer;
 use super::prepared::PreparedScene;
@@ -10,6 +10,10 @@ use super::snapshot::{Carried, Snapshot, SnapshotError};
 use super::solution::Solution;
 use super::solver::Solver;
 use super::statistics::{PassStatistics, PowerLedger};
+
+/// Share of the emitted power unaccounted for from which a solve warns: default settings promise less, and the ledger's
+/// own noise stays below it.
+const IMBALANCE_TO_WARN_OF: f64 = 0.01;
 
 /// A finished solve.
 #[derive(Clone, Debug)]
@@ -105,6 +109,13 @@ impl<const C: usize> Solver<'_, C> {
                 .state_reached(&|| Snapshot::take(&carried, &self.light));
         }
         let power = self.ledger(unshot + self.dropped_mean(carried.dropped));
+        let is_off = power.imbalance.abs() > IMBALANCE_TO_WARN_OF;
+        if is_off && self.config.technique != Technique::Unoccluded {
+            warnings.push(format!(
+                "{:+.2} % of the power is unaccounted for: a smaller epsilon brings it down",
+                100.0 * power.imbalance
+            ));
+        }
         let solution = self.solution();
         Ok(Solved {
             leaves: solution.patches.len(),

@@ -85,9 +85,6 @@ struct Power {
     imbalance: f64,
 }
 
-/// Imbalance from which the page warns: the ledger's own noise stays below it.
-const IMBALANCE_TO_WARN_OF: f64 = 0.01;
-
 /// The section of one solved folder; `picture` is a PNG.
 pub fn solve_section(name: &str, stats: &Stats, picture: Option<&[u8]>) -> String {
     let mut out = format!("<section><h2>{}</h2>\n", escaped(name));
@@ -281,12 +278,6 @@ fn warnings(stats: &Stats) -> String {
         warnings.push(format!(
             "{} faces were dropped at loading",
             stats.scene.dropped_faces.len()
-        ));
-    }
-    if stats.power.imbalance.abs() > IMBALANCE_TO_WARN_OF {
-        warnings.push(format!(
-            "{:+.2} % of the power is unaccounted for: a smaller epsilon brings it down",
-            100.0 * stats.power.imbalance
         ));
     }
     if warnings.is_empty() {
