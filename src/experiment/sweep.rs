@@ -7,8 +7,7 @@ use super::processor_time::processor_seconds;
 use super::sweep_settings::SweepSettings;
 use crate::reference::{NothingToCompare, TrueFace, solution_error, solution_lights};
 use crate::solve::{
-    ConfigError, Guarantees, Observer, PassStatistics, PreparedScene, SolveConfig, SolveError,
-    solve,
+    ConfigError, Observer, PassStatistics, PreparedScene, SolveConfig, SolveError, solve,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -223,12 +222,8 @@ impl<'a> Sweep<'a> {
         // What another technique built goes before the clock starts.
         self.prepared.guarantees = None;
         let (start, worked) = (Instant::now(), processor_seconds());
-        self.prepared.guarantees = Guarantees::for_technique(
-            &self.prepared.scene,
-            &self.prepared.hierarchy,
-            settings.technique,
-            &settings.occluder_config(),
-        );
+        self.prepared
+            .make_guarantees(settings.technique, &settings.occluder_config());
         let solved = solve(self.prepared, &config, observer)?;
         let timing = SweepTiming {
             seconds: start.elapsed().as_secs_f64(),

@@ -21,7 +21,7 @@ pub struct Guarantees {
     pub occluders: OccluderTree,
     /// The polygons.
     pub scene: SceneTree,
-    /// Boxes of air, where anyone has looked for them ([`Self::with_empty_boxes`]).
+    /// Boxes of air; none where nobody has looked for them.
     pub empty_boxes: EmptyBoxes,
     /// The list with which the topmost pair starts.
     pub whole_scene: SurvivorList,
@@ -34,7 +34,7 @@ pub struct Guarantees {
 
 impl Guarantees {
     /// Builds what `technique` needs: nothing, the polygons, or occluders as well.
-    pub fn for_technique(
+    pub(super) fn for_technique(
         scene: &Scene,
         hierarchy: &Hierarchy,
         technique: Technique,
@@ -49,7 +49,7 @@ impl Guarantees {
     }
 
     /// Everything, whatever the technique.
-    pub fn with_occluders(scene: &Scene, hierarchy: &Hierarchy, config: &OccluderConfig) -> Self {
+    fn with_occluders(scene: &Scene, hierarchy: &Hierarchy, config: &OccluderConfig) -> Self {
         let start = Instant::now();
         Self::new(scene, extract_occluders(scene, hierarchy, config), start)
     }
@@ -76,7 +76,7 @@ impl Guarantees {
 
     /// The same with the boxes of air that hold many of `sights`: pairs of points that see each other.
     #[must_use]
-    pub fn with_empty_boxes(mut self, sights: &[[Vec3; 2]]) -> Self {
+    pub(super) fn with_empty_boxes(mut self, sights: &[[Vec3; 2]]) -> Self {
         let start = Instant::now();
         self.empty_boxes = EmptyBoxes::build(&self.scene, sights);
         self.seconds += start.elapsed().as_secs_f64();

@@ -68,13 +68,16 @@ impl PreparedScene {
     /// The same with what `technique` needs for its guaranteed tests.
     #[must_use]
     pub fn with_guarantees(mut self, technique: Technique, occluders: &OccluderConfig) -> Self {
-        self.guarantees =
-            Guarantees::for_technique(&self.scene, &self.hierarchy, technique, occluders).map(
-                |g| {
-                    let sights = draw_sights(&self.scene, &self.hierarchy, &self.embree);
-                    g.with_empty_boxes(&sights)
-                },
-            );
+        self.make_guarantees(technique, occluders);
         self
+    }
+
+    /// Makes what `technique` needs for its guaranteed tests, in place of what there was.
+    pub fn make_guarantees(&mut self, technique: Technique, occluders: &OccluderConfig) {
+        let made = Guarantees::for_technique(&self.scene, &self.hierarchy, technique, occluders);
+        self.guarantees = made.map(|made| {
+            let sights = draw_sights(&self.scene, &self.hierarchy, &self.embree);
+            made.with_empty_boxes(&sights)
+        });
     }
 }
