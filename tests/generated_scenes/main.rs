@@ -341,7 +341,7 @@ fn a_wrong_name_is_told_what_was_meant() {
     ] {
         let error = generate(wrong).unwrap_err();
         assert_eq!(error.name, wrong);
-        assert!(!error.near.is_empty());
+        assert_eq!(error.near.is_empty(), wrong.is_empty(), "{wrong}");
     }
 }
 

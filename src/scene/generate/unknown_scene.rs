@@ -13,7 +13,8 @@ pub struct UnknownScene {
 /// How many names are offered.
 const OFFERED: usize = 3;
 
-/// A name is like another if no more than every so many letters differ; one letter always may.
+/// A name is like another if no more than every so many letters differ (one letter always may), or if it begins with
+/// it, as a wrong reflectance of `furnace-RHO` does.
 const LETTERS_AN_EDIT: usize = 3;
 
 fn hint(near: &[String]) -> String {
@@ -30,8 +31,8 @@ impl UnknownScene {
             .map(|k| (edits(name, k), k))
             .filter(|&(edits, k)| {
                 let letters = name.chars().count().max(k.chars().count());
-                edits <= (letters / LETTERS_AN_EDIT).max(1)
-                    || (k.starts_with(name) && !name.is_empty())
+                let begins = k.starts_with(name) || (k.len() > 1 && name.starts_with(k));
+                !name.is_empty() && (begins || edits <= (letters / LETTERS_AN_EDIT).max(1))
             })
             .collect();
         near.sort();
