@@ -74,11 +74,11 @@ impl Guarantees {
         }
     }
 
-    /// The same with the boxes of air that hold many of `sights`: pairs of points that see each other.
+    /// The same with the boxes of air that hold many of the sights that are drawn: pairs of points that see each other.
     #[must_use]
-    pub(super) fn with_empty_boxes(mut self, sights: &[[Vec3; 2]]) -> Self {
+    pub(super) fn with_empty_boxes(mut self, draw: impl FnOnce() -> Vec<[Vec3; 2]>) -> Self {
         let start = Instant::now();
-        self.empty_boxes = EmptyBoxes::build(&self.scene, sights);
+        self.empty_boxes = EmptyBoxes::build(&self.scene, &draw());
         self.seconds += start.elapsed().as_secs_f64();
         self
     }

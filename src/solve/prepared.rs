@@ -76,8 +76,7 @@ impl PreparedScene {
     pub fn make_guarantees(&mut self, technique: Technique, occluders: &OccluderConfig) {
         let made = Guarantees::for_technique(&self.scene, &self.hierarchy, technique, occluders);
         self.guarantees = made.map(|made| {
-            let sights = draw_sights(&self.scene, &self.hierarchy, &self.embree);
-            made.with_empty_boxes(&sights)
+            made.with_empty_boxes(|| draw_sights(&self.scene, &self.hierarchy, &self.embree))
         });
     }
 }

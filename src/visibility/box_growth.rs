@@ -4,7 +4,7 @@ use super::bounds::ElementBounds;
 use super::crossing::harmless_depth;
 use super::scene_tree::SceneTree;
 use super::shaft::Shaft;
-use super::stored_polygon::{PlaneKnown, StoredPolygon};
+use super::stored_polygon::StoredPolygon;
 use super::tolerance::Tolerance;
 use super::wide_tree::ChildRef;
 use crate::math::{Aabb, PolygonId};
@@ -192,17 +192,16 @@ impl<'a> BoxGrower<'a> {
     }
 }
 
-/// False only if `polygon` surely blocks no segment within `bounds`, which `grown` holds with its margins.
+/// False only if `polygon` surely blocks no segment within `bounds`, which `grown` holds with its margins. Its height over the
+/// centre is right to 2e-9 (see [`StoredPolygon::new`]), which the room for seven roundings in `nesting` (2e-7) covers.
 fn reaches_into(
     polygon: &StoredPolygon,
     grown: &Shaft,
     bounds: Aabb,
     tolerance: &Tolerance,
 ) -> bool {
-    match polygon.known {
-        PlaneKnown::Broad | PlaneKnown::Narrow => {}
-        PlaneKnown::Noise => return true,
-        PlaneKnown::Hairline => return false,
+    if let Some(known) = polygon.may_block_by_shape() {
+        return known;
     }
     let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let centre = 0.5 * (low + high);
@@ -228,7 +227,8 @@ fn reaches_into(
     !parted
 }
 
-/// Beyond the rounding of a product of lengths below 1 in f64.
+/// Corners lie at most 2 from the centre in each coordinate (normalised) and are right to 1e-15, so are the edges twice over;
+/// a sum of two products of them errs by less than 1e-14. The box is grown by more than 1e-7 besides.
 const ROUNDING: f64 = 1.0e-14;
 
 /// The part of a convex polygon where `height` is not above zero.

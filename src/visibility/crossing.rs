@@ -15,7 +15,7 @@
 // Lanes of several arrays run in step: an index says so, and is what vectorises.
 #![allow(clippy::needless_range_loop)]
 
-use super::stored_polygon::{PlaneKnown, StoredPolygon};
+use super::stored_polygon::StoredPolygon;
 use super::tolerance::Tolerance;
 use super::wide_corners::{Points, WideCorners};
 use glam::DVec3;
@@ -33,10 +33,8 @@ pub(super) fn may_block(
     b: &WideCorners,
     tolerance: &Tolerance,
 ) -> bool {
-    match polygon.known {
-        PlaneKnown::Broad | PlaneKnown::Narrow => {}
-        PlaneKnown::Noise => return true,
-        PlaneKnown::Hairline => return false,
+    if let Some(known) = polygon.may_block_by_shape() {
+        return known;
     }
     if blocks_centre_segment(polygon, a.centre, b.centre, tolerance) {
         return true;
@@ -97,7 +95,7 @@ pub(super) fn blocks_centre_segment(
     q: DVec3,
     tolerance: &Tolerance,
 ) -> bool {
-    if !matches!(polygon.known, PlaneKnown::Broad | PlaneKnown::Narrow) {
+    if polygon.may_block_by_shape().is_some() {
         return false;
     }
     let v = corners_of(polygon);

@@ -203,3 +203,19 @@ fn nearby_boxes_hold_what_one_of_them_contains() {
     }
     assert!(held > 10, "{held}");
 }
+
+#[test]
+fn the_boxes_do_not_depend_on_threads() {
+    let stage = Stage::new(furnished());
+    let sights = sights(&stage, 1500, 11);
+    let with = |threads: usize| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("threads start")
+            .install(|| EmptyBoxes::build(&stage.tree, &sights).boxes())
+    };
+    let boxes = with(1);
+    assert!(boxes.len() > 4);
+    assert_eq!(boxes, with(3));
+}

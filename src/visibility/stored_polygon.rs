@@ -73,6 +73,16 @@ impl StoredPolygon {
         }
     }
 
+    /// Whether it may block, where its shape alone says so.
+    #[inline(always)]
+    pub(super) fn may_block_by_shape(&self) -> Option<bool> {
+        match self.known {
+            PlaneKnown::Broad | PlaneKnown::Narrow => None,
+            PlaneKnown::Noise => Some(true),
+            PlaneKnown::Hairline => Some(false),
+        }
+    }
+
     /// How far the tests pull the polygon's border in: [`PULL`] weld distances or nothing.
     pub(super) fn pull(&self, tolerance: &Tolerance) -> f64 {
         match self.known {

@@ -28,7 +28,7 @@ impl UnknownScene {
     /// The error for `name` among the `known` names.
     pub(super) fn new<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Self {
         let mut near: Vec<(usize, &str)> = known
-            .map(|k| (edits(name, k), k))
+            .map(|k| (strsim::levenshtein(name, k), k))
             .filter(|&(edits, k)| {
                 let letters = name.chars().count().max(k.chars().count());
                 let begins = k.starts_with(name) || (k.len() > 1 && name.starts_with(k));
@@ -44,33 +44,9 @@ impl UnknownScene {
     }
 }
 
-/// Number of insertions, deletions and replacements between two words (Levenshtein 1966).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn edits_counts_insertions_deletions_and_replacements() {
-        assert_eq!(edits("", "abc"), 3);
-        assert_eq!(edits("cornel", "cornell"), 1);
-        assert_eq!(edits("kitten", "sitting"), 3);
-        assert_eq!(edits("same", "same"), 0);
-    }
 
     #[test]
     fn only_names_that_are_alike_are_offered() {
