@@ -195,8 +195,10 @@ fn irradiance_at(
         };
         return irradiance_on(&shining, corners, n, space.tau, &rule.octets, values);
     }
-    for (octet, values) in rule.octets.iter().zip(values) {
-        for (l, value) in values.iter_mut().enumerate() {
+    // Lanes past the last point are never looked at.
+    let points = rule.looked_at();
+    for (at, (octet, values)) in rule.octets.iter().zip(values).enumerate() {
+        for (l, value) in values.iter_mut().enumerate().take(points - 8 * at) {
             let [a, b, c] = corners;
             let p = a * octet[0][l] + b * octet[1][l] + c * octet[2][l];
             *value = n

@@ -45,6 +45,11 @@ impl CompositeRule {
         Self { count, octets }
     }
 
+    /// Points at which a function has to be known: those that count, and the one beside them.
+    pub fn looked_at(&self) -> usize {
+        self.count + usize::from(self.count == 3)
+    }
+
     /// Means of `values` times each barycentric coordinate.
     pub fn moments(&self, values: &[[f32; 8]]) -> Vec3 {
         let mut sum = Vec3::ZERO;

@@ -1,17 +1,16 @@
 //! Irradiance that any element of unit radiosity casts on a point, as a vector (see [`super::triangle_vector`]).
 
 use super::element::{Element, Shape};
-use super::triangle_vector::triangle_vector;
+use super::facet_frame::FacetFrame;
+use super::flux_tree::{Below, FluxNode, FluxTree};
+use super::irradiance_kernel::POINT_RADII;
+use super::power_vectors::PowerVectors;
+use super::triangle_vector::{SIX_POINT_RADII, quadrature, triangle_vector};
 use crate::cluster::Hierarchy;
 use crate::math::NodeId;
 use crate::scene::Scene;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
-
-/// A cluster is taken as one flux vector beyond this many radii (its radius bounds its box, about
-/// twice its radius of gyration, so the error is below (1/16)^2 = 4e-3), else as its two children. Between 6 and 12
-/// the error of a solve does not change; 12 makes pass 2 of c a sixth slower than 6 (`bench/runs/`, accuracy).
-const CLUSTER_RADII: f32 = 8.0;
 
 /// Where elements stand.
 #[derive(Clone, Copy)]
@@ -20,12 +19,14 @@ pub struct Space<'a> {
     pub scene: &'a Scene,
     /// Its hierarchy.
     pub hierarchy: &'a Hierarchy,
-    /// The element of each node.
-    pub elements: &'a [Element],
-    /// Unit normal of each facet.
-    pub normals: &'a [Vec3],
+    /// The same, for sums over a cluster.
+    pub flux_tree: &'a FluxTree,
+    /// Where each facet lies.
+    pub frames: &'a [FacetFrame],
     /// Sums of the sources' power before each facet, and of all.
     pub power_before: &'a [f64],
+    /// The sources' power times their normals.
+    pub power_vectors: &'a PowerVectors,
     /// Depth below a surface within which nothing counts, normalised.
     pub tau: f32,
 }
@@ -63,38 +64,61 @@ fn wide_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3
     let inverse = 1.0 / rel.length_squared();
     let range = source.facet_range();
     let whole = space.power_before[range.end] - space.power_before[range.start];
-    let mut flux = 0.0f32;
-    for facet in range {
-        let power = space.power_before[facet + 1] - space.power_before[facet];
-        // The area that would send as much at the cluster's mean radiosity.
-        let area = source.area * (power / whole) as f32;
-        flux += area * (-space.normals[facet].dot(rel)).max(0.0);
-    }
+    let sent = f64::from(space.power_vectors.towards(range, -rel));
+    // As of an area that would send as much at the cluster's mean radiosity.
+    let flux = (f64::from(source.area) * (sent / whole)) as f32;
     rel * (flux * inverse * inverse * FRAC_1_PI)
 }
 
+/// The vector K of a cluster whose facets all face the point: the sum over parts that are far enough to stand as one.
 fn cluster_vector(space: &Space, id: NodeId, point: Vec3, normal: Option<Vec3>) -> Vec3 {
-    let Some(children) = space.hierarchy.children(id) else {
-        let leaf = &space.elements[id.index()];
-        return element_vector(space, leaf, point, normal, true);
-    };
-    let node = space.hierarchy.node(id);
-    let shape = space.hierarchy.shape(id);
-    let rel = shape.centroid - point;
+    let node = space.flux_tree.node(id);
+    let rel = node.centroid - point;
     let distance2 = rel.length_squared();
-    let half = (node.bounds.max - node.bounds.min) * 0.5;
-    if distance2 > CLUSTER_RADII * CLUSTER_RADII * half.length_squared() {
-        let flux = (-shape.area_vector.dot(rel)).max(0.0);
-        let inverse = 1.0 / distance2;
-        let above = normal.is_none_or(|n| n.dot(rel) > 0.0);
-        return if above {
-            rel * (flux * inverse * inverse * FRAC_1_PI)
-        } else {
-            Vec3::ZERO
-        };
+    match node.below() {
+        Below::Children(_) if distance2 > node.reach2 => {
+            match normal.is_none_or(|n| n.dot(rel) > 0.0) {
+                true => far_vector(node, rel, distance2),
+                false => Vec3::ZERO,
+            }
+        }
+        Below::Children(first) => {
+            cluster_vector(space, NodeId(first), point, normal)
+                + cluster_vector(space, NodeId(first + 1), point, normal)
+        }
+        Below::Facet(facet) => {
+            let flux = -node.area_vector.dot(rel);
+            // Behind the facet, or within tau of its plane (see `triangle_vector`).
+            if flux <= 0.0
+                || flux * flux <= space.tau * space.tau * node.area_vector.length_squared()
+            {
+                return Vec3::ZERO;
+            }
+            let frame = &space.frames[facet];
+            let radius2 = node.reach2 * (1.0 / (POINT_RADII * POINT_RADII));
+            let depth = normal.map_or(f32::INFINITY, |n| n.dot(rel));
+            // Wholly above or below the horizon, by a safe margin.
+            if distance2 > SIX_POINT_RADII * SIX_POINT_RADII * radius2
+                && depth * depth > 1.01 * radius2
+            {
+                return if depth < 0.0 {
+                    Vec3::ZERO
+                } else if distance2 > node.reach2 {
+                    far_vector(node, rel, distance2)
+                } else {
+                    let corners = frame.corners().map(|corner| corner - point);
+                    quadrature(corners, rel, flux, distance2, radius2)
+                };
+            }
+            let (corners, area) = (frame.corners(), node.area_vector.length());
+            triangle_vector(corners, frame.normal, area, point, normal, space.tau)
+        }
     }
-    children
-        .into_iter()
-        .map(|child| cluster_vector(space, child, point, normal))
-        .sum()
+}
+
+/// All of a node as if it stood at its centroid.
+fn far_vector(node: &FluxNode, rel: Vec3, distance2: f32) -> Vec3 {
+    let flux = (-node.area_vector.dot(rel)).max(0.0);
+    let inverse = 1.0 / distance2;
+    rel * (flux * inverse * inverse * FRAC_1_PI)
 }

@@ -47,9 +47,10 @@ impl<const C: usize> Task<'_, '_, C> {
             &Space {
                 scene: context.scene,
                 hierarchy: context.hierarchy,
-                elements: context.elements,
-                normals: context.normals,
+                flux_tree: context.flux_tree,
+                frames: context.frames,
                 power_before: self.pass.power_before,
+                power_vectors: self.pass.power_vectors,
                 tau: context.tau,
             },
             &source.element,

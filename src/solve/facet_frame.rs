@@ -29,6 +29,16 @@ impl FacetFrame {
         self.corner + self.along * along + self.across * across
     }
 
+    /// Its corners, counter-clockwise.
+    #[inline(always)]
+    pub fn corners(&self) -> [Vec3; 3] {
+        [
+            self.corner,
+            self.corner + self.along,
+            self.corner + self.across,
+        ]
+    }
+
     /// The frame of each facet, in the hierarchy's order; `normals` likewise.
     pub fn of_all(scene: &Scene, hierarchy: &Hierarchy, normals: &[Vec3]) -> Vec<Self> {
         let facets = hierarchy.facets.iter().zip(normals);

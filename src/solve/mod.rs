@@ -8,12 +8,15 @@ mod config;
 mod element;
 mod element_name;
 mod element_vector;
+#[cfg(test)]
+mod element_vector_tests;
 mod error;
 mod exchange;
 mod facet_frame;
 mod facet_table;
 #[cfg(test)]
 mod fixture;
+mod flux_tree;
 mod form_factor_bound;
 mod form_factor_estimate;
 mod guarantees;
@@ -31,6 +34,7 @@ mod pass_context;
 mod patch_split;
 #[cfg(feature = "plant-regressions")]
 mod planted;
+mod power_vectors;
 mod prepared;
 mod prover;
 mod push_pull;

@@ -3,10 +3,12 @@
 use super::config::SolveConfig;
 use super::element::Element;
 use super::facet_frame::FacetFrame;
+use super::flux_tree::FluxTree;
 use super::guarantees::Guarantees;
 use super::observer::Observer;
 use super::oracle::Oracle;
 use super::pair::{Source, exchange_key};
+use super::power_vectors::PowerVectors;
 use super::radiosity::Shooter;
 use super::sampled_element::{ReceiverSurface, SourceSurface};
 use crate::cluster::Hierarchy;
@@ -33,6 +35,8 @@ pub struct SolveContext<'a> {
     pub guarantees: Option<&'a Guarantees>,
     /// The element of each node.
     pub elements: &'a [Element],
+    /// The hierarchy, for sums over a cluster.
+    pub flux_tree: &'a FluxTree,
     /// Unit normal of each facet.
     pub normals: &'a [Vec3],
     /// Where points on each facet lie.
@@ -55,6 +59,7 @@ pub(super) struct Pass<'a, const C: usize> {
     pub(super) node_unshot: &'a [[f32; C]],
     pub(super) node_variance: &'a [f32],
     pub(super) power_before: &'a [f64],
+    pub(super) power_vectors: &'a PowerVectors,
     pub(super) owner_of_facet: &'a [u32],
     pub(super) first_facets: &'a [u32],
     pub(super) oracle: Oracle,

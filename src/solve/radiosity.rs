@@ -6,6 +6,7 @@
 
 use super::ownership::owner_cut;
 use super::patch_split::{PatchSplit, relative_variance};
+use super::power_vectors::PowerVectors;
 use super::solution::PatchPath;
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{FacetId, NodeId};
@@ -97,6 +98,8 @@ pub struct Radiosity<const C: usize> {
     pub node_variance: Vec<f32>,
     /// Sums of the unshot power, over all channels, of the facets before each facet; one longer.
     pub power_before: Vec<f64>,
+    /// The same power of each facet, times its normal.
+    pub power_vectors: PowerVectors,
     /// The owner of each facet.
     pub owner_of_facet: Vec<u32>,
     /// The first facet of each owner.
@@ -127,6 +130,7 @@ impl<const C: usize> Radiosity<C> {
             node_unshot: vec![[0.0; C]; hierarchy.nodes.len()],
             node_variance: vec![0.0; hierarchy.nodes.len()],
             power_before: vec![0.0; hierarchy.facets.len() + 1],
+            power_vectors: PowerVectors::zero(hierarchy.facets.len()),
             owner_of_facet,
             first_facets: cut
                 .iter()
@@ -180,6 +184,8 @@ impl<const C: usize> Radiosity<C> {
                 let radiosity: f32 = self.node_unshot[index].iter().sum();
                 self.power_before[node.first_facet as usize + 1] =
                     f64::from(radiosity) * f64::from(hierarchy.shapes[index].area);
+                let vector = hierarchy.shapes[index].area_vector * radiosity;
+                self.power_vectors.set(node.first_facet as usize, vector);
             }
         }
         for facet in 1..self.power_before.len() {
@@ -199,5 +205,6 @@ impl<const C: usize> Radiosity<C> {
             .sum::<usize>()
             + self.node_unshot.len() * size_of::<[f32; C]>()
             + self.power_before.len() * size_of::<f64>()
+            + self.power_vectors.bytes()
     }
 }

@@ -4,6 +4,7 @@ use super::config::{Normalise, SolveConfig};
 use super::element::Element;
 use super::error::SolveError;
 use super::facet_table::FacetTable;
+use super::flux_tree::FluxTree;
 use super::guarantees::Guarantees;
 use super::ledger::{RadiatingPatch, escape};
 use super::observer::Observer;
@@ -32,6 +33,7 @@ pub struct Solver<'a, const C: usize> {
     pub(super) table: FacetTable<C>,
     /// The element of each node: the walk meets each of them many times.
     pub(super) elements: Vec<Element>,
+    pub(super) flux_tree: FluxTree,
     /// Emitted power of each channel, in units of the table's radiosity times normalised area.
     pub(super) emitted: Light<C>,
     pub(super) light: Radiosity<C>,
@@ -69,6 +71,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             elements: (0..hierarchy.nodes.len())
                 .map(|n| Element::of_node(scene, hierarchy, NodeId::new(n)))
                 .collect(),
+            flux_tree: FluxTree::new(scene, hierarchy),
             table,
             emitted,
             light,
@@ -111,6 +114,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             embree: self.embree,
             guarantees: self.guarantees,
             elements: &self.elements,
+            flux_tree: &self.flux_tree,
             normals: &self.table.normals,
             frames: &self.table.frames,
             area_before: &self.table.area_before,

@@ -6,9 +6,22 @@
 //! cos cos / (pi r^2). Everything is a *vector* K with irradiance n . K, so that one evaluation
 //! serves every normal of a receiving cluster that has the source wholly in front.
 
-use super::irradiance_kernel::{CONTOUR_RADII, POINT_RADII};
+use super::irradiance_kernel::{POINT_RADII, angle};
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
+
+/// Beyond this many radii a six-point rule of degree 4 errs by less than 1e-3, and a three-point rule of degree 2
+/// beyond as many. A quadrature takes a third of the time of a contour.
+pub(super) const SIX_POINT_RADII: f32 = 2.5;
+const THREE_POINT_RADII: f32 = 5.0;
+
+/// The symmetric rule of degree 4 (Dunavant 1985): weight of the three points near the midpoints of the edges, and the
+/// share of the centroid in each; the same of the three near the corners. A point lies at the centroid times its share
+/// plus the corner times what is left: towards the corner where that is positive, else away from it.
+const SIX_POINTS: [(f32, f32); 2] = [
+    (0.223_381_6, 3.0 * 0.445_948_5),
+    (0.109_951_74, 3.0 * 0.091_576_21),
+];
 
 /// The vector K of a unit-radiosity triangle at `point`, clipped to the horizon of `normal` where
 /// that is given. Zero where the point lies behind the triangle or within `tau` of its plane.
@@ -42,21 +55,42 @@ pub fn triangle_vector(
         .iter()
         .fold(0.0f32, |m, r| m.max((*r - centroid).length_squared()));
     let distance2 = centroid.length_squared();
+    let flux = area * height;
     if distance2 > POINT_RADII * POINT_RADII * radius2 {
         let inverse = 1.0 / distance2;
-        return centroid * (area * height * inverse * inverse * FRAC_1_PI);
+        return centroid * (flux * inverse * inverse * FRAC_1_PI);
     }
-    if distance2 > CONTOUR_RADII * CONTOUR_RADII * radius2 {
-        // The degree-2 rule at the three midpoints between the centroid and the corners.
-        let mut sum = Vec3::ZERO;
-        for r in rel {
-            let q = (centroid + r) * 0.5;
-            let inverse = 1.0 / q.length_squared();
-            sum += q * (inverse * inverse);
-        }
-        return sum * (area * height * (FRAC_1_PI / 3.0));
+    if distance2 > SIX_POINT_RADII * SIX_POINT_RADII * radius2 {
+        return quadrature(rel, centroid, flux, distance2, radius2);
     }
     contour(&rel)
+}
+
+/// The vector of a triangle that lies wholly above the horizon, at least [`SIX_POINT_RADII`] away: corners and centroid
+/// relative to the point, area times the point's height over its plane.
+pub(super) fn quadrature(
+    rel: [Vec3; 3],
+    centroid: Vec3,
+    flux: f32,
+    distance2: f32,
+    radius2: f32,
+) -> Vec3 {
+    let towards = |q: Vec3| {
+        let inverse = 1.0 / q.length_squared();
+        q * (inverse * inverse)
+    };
+    if distance2 > THREE_POINT_RADII * THREE_POINT_RADII * radius2 {
+        // The midpoints between the centroid and the corners.
+        let [a, b, c] = rel.map(|r| towards((centroid + r) * 0.5));
+        return (a + b + c) * (flux * (FRAC_1_PI / 3.0));
+    }
+    let mut sum = Vec3::ZERO;
+    for (weight, share) in SIX_POINTS {
+        let inwards = centroid * share;
+        let [a, b, c] = rel.map(|r| towards(inwards + r * (1.0 - share)));
+        sum += (a + b + c) * weight;
+    }
+    sum * (flux * FRAC_1_PI)
 }
 
 /// Lambert's contour integral over a polygon given relative to the receiving point,
@@ -69,7 +103,7 @@ fn contour(rel: &[Vec3]) -> Vec3 {
         let sine = cross.length();
         // An edge that passes through the point, or of no length, subtends nothing.
         if sine > 0.0 {
-            let theta = sine.atan2(previous.dot(next));
+            let theta = angle(sine, previous.dot(next));
             sum += cross * (theta / sine);
         }
         previous = next;
