@@ -67,7 +67,7 @@ fn main() {
         );
     };
     let tolerance = Tolerance::of_scene(stage.scene.bounds());
-    let occluders = OccluderTree::build(&stage.slabs, tolerance);
+    let occluders = OccluderTree::build(&stage.slabs, &[], tolerance);
     let (seconds, counts) = least(|| occlusion(&occluders, &chains));
     row("occlusion", seconds, counts, counts[3] as usize);
     let start = Instant::now();

@@ -23,11 +23,12 @@ pub fn run(session: &Session, command: &OccludersCommand) -> Result<(), CliError
         write_json(path, &summary, &session.interrupted)?;
     }
     session.say(format_args!(
-        "wrote {}: {} occluders of {} flat clusters, {:.1} % of whose area they cover; extracted in {seconds:.3} s",
+        "wrote {}: {} occluders of {} flat clusters, {:.1} % of whose area they cover, and {} solids; extracted in {seconds:.3} s",
         command.out.display(),
         summary.occluders,
         summary.flat_clusters,
         100.0 * summary.covered_share,
+        summary.solids,
     ));
     Ok(())
 }

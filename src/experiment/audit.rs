@@ -2,20 +2,21 @@
 //! then attacked with rays.
 //!
 //! 64 random rays would miss a claim that is wrong on a hundred-thousandth of its segments; so once
-//! per occluder that was claimed its rectangle is shown to lie in continuous surface, per occlusion
+//! per occluder that was claimed its rectangle is shown to lie in continuous surface (or its solid to be
+//! closed), per occlusion
 //! claim all vertex pairs are checked against both faces of the slab, and per visibility claim of a
 //! sample every polygon of the scene against the hull of the pair.
 
 use super::audit_report::{AuditReport, Flaw};
-use super::continuous_surface::{SurfaceProof, prove_surface};
+use super::claimed_occluder::ClaimedOccluder;
+use super::continuous_surface::SurfaceProof;
 use super::ray_attack::{AttackOutcome, RayAttack};
 use super::shaft_replay::replay_visibility;
 use crate::math::{PolygonId, hash_u64};
-use crate::occluder::Occluder;
 use crate::solve::{
     Claim, ElementName, Guarantees, Observer, PreparedScene, SolveConfig, SolveError, solve,
 };
-use crate::visibility::exact::{SegmentStanding, replay_occlusion};
+use crate::visibility::exact::SegmentStanding;
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -115,11 +116,11 @@ impl<'a> Auditor<'a> {
         }
     }
 
-    fn occluder(&self, index: u32) -> &'a Occluder {
-        &self.guarantees.occluder_set.occluders[index as usize]
+    fn occluder(&self, index: u32) -> ClaimedOccluder<'a> {
+        ClaimedOccluder::of(&self.guarantees.occluder_set, index)
     }
 
-    /// Once per occluder: does its rectangle lie in continuous surface?
+    /// Once per occluder: does its rectangle lie in continuous surface, or is it closed on all sides?
     fn occluders(&self, claims: &[Claim], report: &mut AuditReport) {
         let mut claimed: Vec<u32> = claims.iter().filter_map(|c| c.occluder).collect();
         claimed.sort_unstable();
@@ -129,12 +130,8 @@ impl<'a> Auditor<'a> {
         let proofs: Vec<Result<SurfaceProof, DVec3>> = claimed
             .par_iter()
             .map(|&index| {
-                prove_surface(
-                    &self.prepared.scene,
-                    &self.prepared.hierarchy,
-                    self.occluder(index),
-                    weld,
-                )
+                let (scene, hierarchy) = (&self.prepared.scene, &self.prepared.hierarchy);
+                self.occluder(index).prove(scene, hierarchy, weld)
             })
             .collect();
         for (&occluder, proof) in claimed.iter().zip(proofs) {
@@ -146,7 +143,7 @@ impl<'a> Auditor<'a> {
                 }
                 Err(at) => report.add(Flaw::OccluderOpen {
                     occluder,
-                    node: self.occluder(occluder).node.0,
+                    node: self.occluder(occluder).node().map(|node| node.0),
                     at: self.in_file(at),
                 }),
             }
@@ -190,7 +187,7 @@ impl<'a> Auditor<'a> {
         let scene = &self.guarantees.scene;
         if let Some(occluder) = occluder {
             report.occlusion_claims += 1;
-            match replay_occlusion(&occluder.slab, &a, &b, scene.tolerance()) {
+            match occluder.replay(&a, &b, scene.tolerance()) {
                 Ok(()) => report.occlusion_proofs += 1,
                 Err(flaw) => report.add(Flaw::OcclusionProof {
                     claim: claim.into(),

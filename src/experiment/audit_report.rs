@@ -49,13 +49,13 @@ pub struct AuditReport {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Flaw {
-    /// The rectangle of a claimed occluder does not lie in continuous surface.
+    /// The rectangle of a claimed occluder does not lie in continuous surface, or a claimed solid is not closed.
     OccluderOpen {
         /// Index of the occluder.
         occluder: u32,
-        /// Its node of the hierarchy.
-        node: u32,
-        /// A point of its plane that nothing covers, in the file's units.
+        /// Its node of the hierarchy; none of a solid.
+        node: Option<u32>,
+        /// A point of its plane, or of its surface, that nothing covers, in the file's units.
         at: [f64; 3],
     },
     /// The occluder does not cut every segment of the pair.

@@ -6,7 +6,7 @@ use super::continuous_surface::{SurfaceProof, prove_surface};
 use crate::cluster::Hierarchy;
 use crate::embree::DeviceConfig;
 use crate::math::Aabb;
-use crate::occluder::{Occluder, OccluderConfig, OccluderSet, SlabRectangle};
+use crate::occluder::{Occluder, OccluderConfig, OccluderSet, SlabRectangle, Solid};
 use crate::scene::generate::generate;
 use crate::scene::{LoadConfig, SidesMode, load_text};
 use crate::solve::{Guarantees, PreparedScene, Silent, SolveConfig, Stop, Stride, Technique};
@@ -176,6 +176,76 @@ fn an_occluder_grown_by_a_thousandth_is_found() {
         .collect();
     let report = audit_of(&with_set(prepared, grown));
     assert!(finds(&report, is_open));
+}
+
+/// A box of side 0.4 in the middle of the room without the face that looks along x.
+fn open_box() -> PreparedScene {
+    let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z) * 0.2;
+    let mut quads = Vec::new();
+    for (axis, side) in [(0, -1.0f32), (1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)] {
+        let mut quad = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(s, t)| {
+            let mut p = [side; 3];
+            (p[(axis + 1) % 3], p[(axis + 2) % 3]) = (s, t);
+            at(p[0], p[1], p[2])
+        });
+        if side < 0.0 {
+            quad.reverse();
+        }
+        quads.push(quad);
+    }
+    room_with(&quads)
+}
+
+#[test]
+fn an_open_face_of_a_solid_taken_for_covered_is_found() {
+    let prepared = open_box();
+    let clean = assert_clean(&prepared);
+    assert!(clean.occlusion_claims > 100);
+    let own = &prepared.guarantees.as_ref().expect("built").occluder_set;
+    let rectangles = own.occluders.len() as u32;
+    assert!(!own.solids.is_empty());
+    let solids = own.solids.iter().map(|solid| Solid {
+        covered: [[true; 2]; 3],
+        ..*solid
+    });
+    let set = OccluderSet {
+        solids: solids.collect(),
+        ..own.clone()
+    };
+    let report = audit_of(&PreparedScene {
+        guarantees: Some(Guarantees::with_set(&prepared.scene, set)),
+        ..prepared
+    });
+    let open = |flaw: &Flaw| matches!(flaw, Flaw::OccluderOpen { node: None, .. });
+    assert!(finds(&report, open));
+    let of_solid = |flaw: &Flaw| match flaw {
+        Flaw::OccluderOpen { occluder, .. } => *occluder >= rectangles,
+        _ => true,
+    };
+    assert!(report.flaws.iter().all(of_solid));
+}
+
+#[test]
+fn a_solid_grown_by_a_thousandth_is_found() {
+    let prepared = open_box();
+    let own = &prepared.guarantees.as_ref().expect("built").occluder_set;
+    let by = 1.0e-3 * prepared.scene.bounds().diagonal();
+    let solids = own.solids.iter().map(|solid| Solid {
+        halves: solid.halves.map(|h| h + h.normalize() * by),
+        ..*solid
+    });
+    let set = OccluderSet {
+        solids: solids.collect(),
+        ..own.clone()
+    };
+    let report = audit_of(&PreparedScene {
+        guarantees: Some(Guarantees::with_set(&prepared.scene, set)),
+        ..prepared
+    });
+    assert!(finds(&report, |flaw| matches!(
+        flaw,
+        Flaw::OccluderOpen { node: None, .. }
+    )));
 }
 
 /// A sheet along z through the points of a profile in the plane of x and y.

@@ -20,9 +20,10 @@ use super::flat_polygon::{
 };
 use super::surface_chain::{FrameTriangle, boundary, degree, is_outside};
 use crate::cluster::Hierarchy;
-use crate::occluder::{Occluder, SlabRectangle};
+use crate::math::{Aabb, PolygonId};
+use crate::occluder::{Occluder, SlabRectangle, Solid};
 use crate::scene::Scene;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::SQRT_2;
 
 /// Share of w that is used; the rest is for rounding, a thousand times over.
@@ -73,6 +74,38 @@ pub(super) fn prove_surface(
     Err(prism.lift(open))
 }
 
+/// Shows that every point of the surface of `solid` is within w of a polygon (the first proof, face by face, over all
+/// polygons of the scene); else a point that may not be.
+pub(super) fn prove_closed(scene: &Scene, solid: &Solid, weld: f64) -> Result<SurfaceProof, DVec3> {
+    let reach = 2.0 * weld as f32;
+    let near = solid.bounds();
+    let near = Aabb {
+        min: near.min - reach,
+        max: near.max + reach,
+    };
+    let polygons: Vec<[DVec3; 3]> = (0..scene.polygons.len())
+        .map(|i| scene.corners(PolygonId::new(i)))
+        .filter(|&corners| Aabb::from_points(corners).distance(near) <= 0.0)
+        .map(|corners| corners.map(Vec3::as_dvec3))
+        .collect();
+    for axis in 0..3 {
+        for (side, covered) in [-1.0, 1.0].into_iter().zip(solid.covered[axis]) {
+            if !covered {
+                continue;
+            }
+            let prism = Prism::of_face(solid.face(axis, side));
+            let triangles: Vec<FrameTriangle> = polygons
+                .iter()
+                .map(|corners| corners.map(|p| prism.project(p)))
+                .collect();
+            if let Some(open) = prism.uncovered(&triangles, weld) {
+                return Err(prism.lift(open));
+            }
+        }
+    }
+    Ok(SurfaceProof::Cover)
+}
+
 /// A slab in its own coordinates.
 struct Prism {
     origin: DVec3,
@@ -91,17 +124,7 @@ struct Cover {
 
 impl Prism {
     fn new(slab: &SlabRectangle) -> Self {
-        let corners = slab.corners.map(|c| c.as_dvec3());
-        let origin = 0.25 * corners.iter().copied().sum::<DVec3>();
-        let u = (corners[1] - corners[0]).normalize_or(DVec3::X);
-        let across = corners[3] - corners[0];
-        let v = (across - u * u.dot(across)).normalize_or(u.any_orthonormal_vector());
-        let mut prism = Self {
-            origin,
-            axes: [u, v, u.cross(v)],
-            hull: Vec::new(),
-            faces: [0.0; 2],
-        };
+        let mut prism = Self::of_face(slab.corners.map(|c| c.as_dvec3()));
         let [below, above] =
             [-1.0, 1.0].map(|side| slab.face_corners(side).map(|corner| prism.project(corner)));
         let highest = |face: &[DVec3; 4]| face.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
@@ -112,6 +135,22 @@ impl Prism {
             [highest(&above), lowest(&below)]
         };
         prism.hull = convex_hull(below.iter().chain(&above).map(|p| p.truncate()).collect());
+        prism
+    }
+
+    /// A rectangle without thickness.
+    fn of_face(corners: [DVec3; 4]) -> Self {
+        let origin = 0.25 * corners.iter().copied().sum::<DVec3>();
+        let u = (corners[1] - corners[0]).normalize_or(DVec3::X);
+        let across = corners[3] - corners[0];
+        let v = (across - u * u.dot(across)).normalize_or(u.any_orthonormal_vector());
+        let mut prism = Self {
+            origin,
+            axes: [u, v, u.cross(v)],
+            hull: Vec::new(),
+            faces: [0.0; 2],
+        };
+        prism.hull = convex_hull(corners.map(|p| prism.project(p).truncate()).to_vec());
         prism
     }
 

@@ -6,6 +6,7 @@ mod audit_report;
 #[cfg(test)]
 mod audit_tests;
 mod baseline_key;
+mod claimed_occluder;
 mod comparison;
 mod continuous_surface;
 mod detection;

@@ -5,13 +5,13 @@
 //! the surface that it stands on; for a visibility claim, by a border of a polygon near the shaft. Embree answers, in robust
 //! mode, trimmed as in the solver; what contradicts the claim is settled in exact arithmetic.
 
+use super::claimed_occluder::ClaimedOccluder;
 use super::dice::Dice;
 use super::element_points::{ElementPoint, ElementPoints, Place, point_of};
 use super::polygon_boxes::{PolygonBoxes, nearest_on_segment};
 use crate::cluster::Hierarchy;
 use crate::embree::{CommittedScene, RayPacket8};
 use crate::math::PolygonId;
-use crate::occluder::Occluder;
 use crate::scene::Scene;
 use crate::solve::{Element, PreparedScene};
 use crate::visibility::SceneTree;
@@ -66,7 +66,7 @@ pub(super) struct AttackOutcome {
 
 /// What the aimed rays aim at.
 enum Target<'a> {
-    Occluder(&'a Occluder),
+    Occluder(ClaimedOccluder<'a>),
     Polygons(Vec<PolygonId>),
 }
 
@@ -90,7 +90,7 @@ impl<'a> RayAttack<'a> {
     pub fn attack(
         &self,
         [a, b]: [&Element; 2],
-        occluder: Option<&Occluder>,
+        occluder: Option<ClaimedOccluder>,
         key: u64,
     ) -> AttackOutcome {
         let mut outcome = AttackOutcome::default();
@@ -206,17 +206,7 @@ impl<'a> RayAttack<'a> {
     /// A place to aim at, on or a little beside a border.
     fn place(&self, target: &Target, dice: &mut Dice) -> Option<Vec3> {
         let on = match target {
-            Target::Occluder(occluder) if dice.below(2) == 0 => {
-                let i = dice.below(4);
-                let (start, end) = (occluder.slab.corners[i], occluder.slab.corners[(i + 1) % 4]);
-                start + (end - start) * dice.unit()
-            }
-            // Cracks run along the edges of its surface.
-            Target::Occluder(occluder) => {
-                let facets = self.hierarchy.facet_range(occluder.node);
-                let facet = self.hierarchy.facets[facets.start + dice.below(facets.len())];
-                point_of(self.scene.facet_corners(facet), Place::Edge, dice)
-            }
+            Target::Occluder(occluder) => occluder.border_point(self.scene, self.hierarchy, dice),
             Target::Polygons(polygons) => {
                 let chosen = *polygons.get(dice.below(polygons.len().max(1)))?;
                 let place = [Place::Corner, Place::Edge, Place::Inside][dice.below(3)];

@@ -21,6 +21,8 @@ pub struct OccluderConfig {
     /// down to the floor on both sides of a wall could be proved occluded by the wall, which ends at
     /// the floor. Off, every rectangle lies inside the footprint (cracks apart).
     pub flush: bool,
+    /// Looks for solids behind the largest rectangles ([`super::Solid`]).
+    pub solids: bool,
 }
 
 impl Default for OccluderConfig {
@@ -34,6 +36,7 @@ impl Default for OccluderConfig {
             // The riser of a step is perpendicular; bevels and panels of doors are not.
             cone_degrees: 45.0,
             flush: true,
+            solids: true,
         }
     }
 }

@@ -8,6 +8,7 @@ use super::grow::grow_rectangles;
 use super::rectangle::{Rectangle, union_area};
 use super::set::{Occluder, OccluderSet, OccluderStatistics};
 use super::sheet::Sheet;
+use super::solid_search::find_solids;
 use super::thicken::thicken;
 use crate::cluster::Hierarchy;
 use crate::math::NodeId;
@@ -50,6 +51,9 @@ pub fn extract_occluders(
     for cluster in clusters {
         set.statistics = add(set.statistics, &cluster);
         set.occluders.extend(cluster.occluders);
+    }
+    if config.solids {
+        set.solids = find_solids(scene, &set.occluders, scale.weld);
     }
     set
 }

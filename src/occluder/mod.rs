@@ -2,7 +2,7 @@
 //!
 //! Paper, section 3.2. The stages, one file each: flat clusters (`candidate`) -> oriented
 //! sheet of projected triangles -> welded boundary -> footprint -> bounding rectangle -> quadtree
-//! -> grown rectangles -> occluders checked in exact arithmetic.
+//! -> grown rectangles -> occluders checked in exact arithmetic -> solids that they close (`solid_search`).
 
 mod boundary;
 mod bounding_rectangle;
@@ -19,6 +19,8 @@ mod set;
 mod sheet;
 mod simplify;
 mod slab;
+mod solid;
+mod solid_search;
 mod thicken;
 mod weld;
 
@@ -30,3 +32,4 @@ pub use config::OccluderConfig;
 pub use extract::extract_occluders;
 pub use set::{Occluder, OccluderSet, OccluderStatistics};
 pub use slab::SlabRectangle;
+pub use solid::Solid;

@@ -1,6 +1,7 @@
 //! The occluders of a scene as later stages see them.
 
 use super::slab::SlabRectangle;
+use super::solid::Solid;
 use crate::math::NodeId;
 
 /// A rectangle thickened to a slab that no free segment can pass through.
@@ -25,6 +26,8 @@ pub struct Occluder {
 pub struct OccluderSet {
     /// The occluders.
     pub occluders: Vec<Occluder>,
+    /// Boxes that hide what is seen past their edges; claims number them after the rectangles.
+    pub solids: Vec<Solid>,
     /// Counts and areas.
     pub statistics: OccluderStatistics,
 }

@@ -15,7 +15,7 @@ const HUE_STEP: f64 = 0.618_033_988_749_894_9;
 /// Writes the occluders as an OBJ in the file's units: one object with one face an occluder, named
 /// by its place in the list and the node that covers it, with colours at the vertices (which most
 /// viewers show). The faces lie half-way between the two faces of the slab and wind
-/// counter-clockwise about its normal.
+/// counter-clockwise about its normal. Then the solids, one object each with the faces that are covered.
 ///
 /// # Errors
 /// As [`write_atomically`].
@@ -53,6 +53,26 @@ fn write_objects(out: &mut impl Write, scene: &Scene, set: &OccluderSet) -> io::
         let first = 4 * index + 1;
         writeln!(out, "f {} {} {} {}", first, first + 1, first + 2, first + 3)?;
     }
+    for (index, solid) in set.solids.iter().enumerate() {
+        let [red, green, blue] = hue((index as f64 * HUE_STEP).fract());
+        writeln!(out, "o solid_{index}")?;
+        for axis in 0..3 {
+            for (side, covered) in [-1.0, 1.0].into_iter().zip(solid.covered[axis]) {
+                if !covered {
+                    continue;
+                }
+                for corner in solid.face(axis, side) {
+                    let p = scene.normalisation.to_file(corner.as_vec3());
+                    writeln!(
+                        out,
+                        "v {} {} {} {red:.3} {green:.3} {blue:.3}",
+                        p.x, p.y, p.z
+                    )?;
+                }
+                writeln!(out, "f -4 -3 -2 -1")?;
+            }
+        }
+    }
     Ok(())
 }
 
@@ -78,6 +98,8 @@ pub struct OccluderSummary {
     pub configuration: OccluderConfig,
     /// Occluders found.
     pub occluders: usize,
+    /// Boxes that hide what lies behind two faces or more.
+    pub solids: usize,
     /// Flat clusters that were big enough, off the scene's bounding box, each sheet once.
     pub flat_clusters: usize,
     /// Flat clusters that gave an occluder.
@@ -108,6 +130,7 @@ impl OccluderSummary {
             polygons: scene.polygons.len(),
             configuration,
             occluders: set.occluders.len(),
+            solids: set.solids.len(),
             flat_clusters: set.statistics.flat_clusters,
             productive_clusters: set.statistics.productive_clusters,
             flat_area: area(set.statistics.flat_area),

@@ -38,4 +38,5 @@ pub use facet::{Facet, Side};
 pub use load::{load_file, load_text};
 pub use model::{Normalisation, Polygon, Scene, SceneWarning, Surface};
 pub use overlap::{Overlaps, find_overlaps};
+pub(crate) use polygon_tree::PolygonTree;
 pub use sides::{SidesMode, resolve_sides};

@@ -22,7 +22,7 @@ struct Node {
 }
 
 /// Nodes in depth-first order over polygons sorted along a space-filling curve (Morton 1966).
-pub(super) struct PolygonTree {
+pub(crate) struct PolygonTree {
     nodes: Vec<Node>,
     order: Vec<u32>,
     /// Boxes of polygons, in the order of `order`.

@@ -63,7 +63,11 @@ impl Guarantees {
         let slabs: Vec<SlabRectangle> = occluder_set.occluders.iter().map(|o| o.slab).collect();
         let tree = SceneTree::build(scene);
         Self {
-            occluders: OccluderTree::build(&slabs, Tolerance::of_scene(scene.bounds())),
+            occluders: OccluderTree::build(
+                &slabs,
+                &occluder_set.solids,
+                Tolerance::of_scene(scene.bounds()),
+            ),
             whole_scene: SurvivorList::whole_scene(&tree),
             scene: tree,
             empty_boxes: EmptyBoxes::default(),

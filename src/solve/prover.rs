@@ -10,8 +10,8 @@ use super::query_schedule::{Evidence, Occasion, Queries, QuerySchedule};
 use super::statistics::PassStatistics;
 use crate::math::Aabb;
 use crate::visibility::{
-    BlockerList, NearbyBoxes, OcclusionScratch, SurvivorList, Verdict, VisibilityQuery,
-    VisibilityScratch,
+    BlockerList, ElementBounds, NearbyBoxes, OcclusionScratch, SurvivorList, Verdict,
+    VisibilityQuery, VisibilityScratch,
 };
 
 /// What is known of a pair by the pairs above it.
@@ -216,23 +216,13 @@ impl<'a> Prover<'a> {
         statistics.shafts += 1;
         let (a, b) = (source.shaft_bounds(), receiver.shaft_bounds());
         if queries.occlusion() && self.technique.proves_occlusion() {
-            let answer = self.guarantees.occluders.query(
-                &a,
-                &b,
-                &mut self.last_occluder,
-                &mut self.occlusion,
-            );
-            self.schedule.learn_occlusion(
-                occasion,
-                answer.occluder.is_some(),
-                answer.nodes + answer.tests,
-            );
-            if answer.occluder.is_some() {
+            let occluder = self.find_occluder(&a, &b, occasion);
+            if occluder.is_some() {
                 statistics.occluded_claims += 1;
                 known.verdict = Verdict::Occluded;
                 return Proof {
                     knowledge: known,
-                    occluder: answer.occluder,
+                    occluder,
                 };
             }
         }
@@ -261,6 +251,33 @@ impl<'a> Prover<'a> {
         known.verdict = answer.verdict;
         statistics.visible_claims += u64::from(visible);
         Proof::none(known)
+    }
+
+    /// A rectangle, or where that may pay a solid, that hides the pair.
+    fn find_occluder(
+        &mut self,
+        a: &ElementBounds,
+        b: &ElementBounds,
+        occasion: Occasion,
+    ) -> Option<u32> {
+        let (tree, last) = (&self.guarantees.occluders, &mut self.last_occluder);
+        let rectangles = tree.query(a, b, last, &mut self.occlusion);
+        let mut found = rectangles.occluder;
+        let mut steps = rectangles.nodes + rectangles.tests;
+        let asks = match self.stride {
+            Stride::Every(_) => true,
+            Stride::Auto => self.schedule.solids_may_pay(occasion),
+        };
+        if found.is_none() && rectangles.centre_blocked && asks {
+            let solids = tree.query_solids(a, b, last, &mut self.occlusion);
+            let own = solids.nodes + solids.tests;
+            found = solids.occluder;
+            steps += own;
+            self.schedule.learn_solids(occasion, found.is_some(), own);
+        }
+        self.schedule
+            .learn_occlusion(occasion, found.is_some(), steps);
+        found
     }
 
     /// The few polygons that may block a pair, or `None` if they are many.

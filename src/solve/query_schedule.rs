@@ -79,10 +79,11 @@ impl Evidence {
     }
 }
 
-/// Parts of a query's cost, in packets of eight rays: what every query costs, a node or full test of the occluders,
+/// Parts of a query's cost, in packets of eight rays: what every query costs, a node or full test of the occluders, of the solids (in f64),
 /// and a node or leaf of the scene with its polygons. Measured on d, e and f at the fixed stride (`bench/runs/`, compare).
 const QUERY_BASE_COST: f32 = 0.4;
 const OCCLUDER_STEP_COST: f32 = 0.05;
+const SOLID_STEP_COST: f32 = 0.1;
 const NODE_COST: f32 = 0.2;
 /// What testing a packet natively saves, in packets.
 const NATIVE_GAIN: f32 = 0.25;
@@ -114,6 +115,8 @@ pub struct QuerySchedule {
     occlusion: Records,
     visibility: Records,
     shortening: [QueryRecord; SIZES],
+    /// Of solids, where no rectangle was found.
+    solids: [QueryRecord; SIZES],
     history: usize,
 }
 
@@ -125,6 +128,7 @@ impl QuerySchedule {
             occlusion: [[QueryRecord::PRIOR; HISTORIES]; SIZES],
             visibility: [[QueryRecord::PRIOR; HISTORIES]; SIZES],
             shortening: [QueryRecord::PRIOR; SIZES],
+            solids: [QueryRecord::PRIOR; SIZES],
             history: MIXED,
         }
     }
@@ -147,6 +151,7 @@ impl QuerySchedule {
             occlusion: all(|s| &s.occlusion),
             visibility: all(|s| &s.visibility),
             shortening: std::array::from_fn(|size| mean(&|s| s.shortening[size])),
+            solids: std::array::from_fn(|size| mean(&|s| s.solids[size])),
             history: MIXED,
         }
     }
@@ -226,6 +231,17 @@ impl QuerySchedule {
     pub fn learn_occlusion(&mut self, occasion: Occasion, success: bool, steps: u32) {
         let cost = QUERY_BASE_COST + OCCLUDER_STEP_COST * steps as f32;
         self.occlusion[size(occasion.packets())][self.history].learn(success, cost);
+    }
+
+    /// Whether to look for a solid where no rectangle hides a pair.
+    pub fn solids_may_pay(&mut self, occasion: Occasion) -> bool {
+        self.solids[size(occasion.packets())].pays(occasion.packets())
+    }
+
+    /// Remembers how a query for a solid ended, after so many nodes and full tests.
+    pub fn learn_solids(&mut self, occasion: Occasion, success: bool, steps: u32) {
+        let cost = SOLID_STEP_COST * (1 + steps) as f32;
+        self.solids[size(occasion.packets())].learn(success, cost);
     }
 
     /// Remembers how a walk through the shaft ended, after so many nodes and leaves.

@@ -111,7 +111,7 @@ impl Stage {
             polygons.iter().copied().filter(|id| beyond(id)).collect()
         });
         Self {
-            tree: OccluderTree::build(&slabs, tolerance),
+            tree: OccluderTree::build(&slabs, &[], tolerance),
             scene,
             slabs,
             tolerance,

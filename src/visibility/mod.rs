@@ -11,12 +11,15 @@ mod full_visibility;
 mod occluder_tree;
 mod occlusion;
 mod plane_octet;
+mod probe_segment;
 mod sample_points;
 mod sampling;
 mod scene_tree;
 mod shaft;
 mod shaft_planes;
 mod slab_planes;
+mod solid_occlusion;
+mod solid_tree;
 mod stored_polygon;
 mod survivors;
 mod tolerance;
@@ -54,5 +57,7 @@ mod nasty_scenes;
 mod occlusion_proofs;
 #[cfg(test)]
 mod proof_stage;
+#[cfg(test)]
+mod solid_proofs;
 #[cfg(test)]
 mod visibility_proofs;

@@ -2,15 +2,17 @@
 //! sections 3.2 and 5.2).
 //!
 //! An occluder that blocks every segment of a pair blocks the one that joins the centres, so that
-//! segment alone finds the candidates.
+//! segment alone finds the candidates, among rectangles as among solids.
 
 use super::bounds::ElementBounds;
 use super::faults::Faults;
 use super::occlusion::OccluderFaces;
+use super::probe_segment::ProbeSegment;
+use super::solid_tree::{SolidAnswer, SolidTree};
 use super::tolerance::Tolerance;
-use super::wide_tree::{ChildRef, WideLeaf, WideNode, WideTree};
+use super::wide_tree::{ChildRef, WideLeaf, WideTree};
 use crate::math::Aabb;
-use crate::occluder::SlabRectangle;
+use crate::occluder::{SlabRectangle, Solid};
 use glam::Vec3;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -20,6 +22,7 @@ pub struct OccluderTree {
     tree: WideTree,
     leaves: Vec<RectangleOctet>,
     faces: Vec<OccluderFaces>,
+    solids: SolidTree,
     tolerance: Tolerance,
     faults: Faults,
     arch: Arch,
@@ -46,7 +49,7 @@ pub struct OcclusionScratch {
 /// The outcome of [`OccluderTree::query`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OcclusionAnswer {
-    /// Index of an occluder that blocks the whole pair: a proof.
+    /// Index of a rectangle, or of a solid after them, that blocks the whole pair: a proof.
     pub occluder: Option<u32>,
     /// True if some occluder crosses the segment between the centres. False means that no occluder
     /// can block the pair: evidence, not proof.
@@ -58,8 +61,8 @@ pub struct OcclusionAnswer {
 }
 
 impl OccluderTree {
-    /// The hierarchy over `occluders`, whose indices it keeps.
-    pub fn build(occluders: &[SlabRectangle], tolerance: Tolerance) -> Self {
+    /// The hierarchy over `occluders`, whose indices it keeps; those of `solids` come after.
+    pub fn build(occluders: &[SlabRectangle], solids: &[Solid], tolerance: Tolerance) -> Self {
         let boxes: Vec<Aabb> = occluders.iter().map(box_of).collect();
         let tree = WideTree::build(&boxes);
         let leaves = tree
@@ -71,6 +74,7 @@ impl OccluderTree {
             tree,
             leaves,
             faces: occluders.iter().map(OccluderFaces::new).collect(),
+            solids: SolidTree::build(solids, &tolerance),
             tolerance,
             faults: Faults::NONE,
             arch: Arch::new(),
@@ -85,7 +89,7 @@ impl OccluderTree {
         self
     }
 
-    /// Number of occluders.
+    /// Number of rectangles.
     pub fn len(&self) -> usize {
         self.faces.len()
     }
@@ -100,9 +104,10 @@ impl OccluderTree {
         self.tree.bytes()
             + self.leaves.len() * size_of::<RectangleOctet>()
             + self.faces.len() * size_of::<OccluderFaces>()
+            + self.solids.bytes()
     }
 
-    /// Looks for one occluder that blocks every segment between `a` and `b`.
+    /// Looks for one rectangle that blocks every segment between `a` and `b`; tries a solid only if it is `last`.
     ///
     /// `last` is the caller's cache: the last occluder that succeeded, tried first and replaced on
     /// success. An index out of range is ignored.
@@ -125,16 +130,53 @@ impl OccluderTree {
         })
     }
 
+    /// Looks for one solid that blocks every segment between `a` and `b`: worth it where [`Self::query`] found none but
+    /// `centre_blocked`, since whatever passes a covered face of a solid passes what covers it, a rectangle nearly always.
+    pub fn query_solids(
+        &self,
+        a: &ElementBounds,
+        b: &ElementBounds,
+        last: &mut Option<u32>,
+        scratch: &mut OcclusionScratch,
+    ) -> OcclusionAnswer {
+        if self.solids.is_empty() {
+            return OcclusionAnswer::default();
+        }
+        let found = self.arch.dispatch(SolidKernel {
+            tree: self,
+            a,
+            b,
+            scratch,
+        });
+        let occluder = found.solid.map(|index| index + self.faces.len() as u32);
+        *last = occluder.or(*last);
+        OcclusionAnswer {
+            occluder,
+            centre_blocked: occluder.is_some(),
+            nodes: found.nodes,
+            tests: found.tests,
+        }
+    }
+
     /// Tries one occluder only: nearly free where the caller has a likely one.
     pub fn occluded_by(&self, occluder: u32, a: &ElementBounds, b: &ElementBounds) -> bool {
-        self.faces.get(occluder as usize).is_some_and(|faces| {
-            self.arch.dispatch(SingleKernel {
-                tree: self,
-                faces,
-                a,
-                b,
-            })
+        self.arch.dispatch(SingleKernel {
+            tree: self,
+            occluder,
+            a,
+            b,
         })
+    }
+
+    /// Tries one rectangle or solid; false where there is none of that index.
+    #[inline(always)]
+    fn is_occluded_by(&self, occluder: u32, a: &ElementBounds, b: &ElementBounds) -> bool {
+        match self.faces.get(occluder as usize) {
+            Some(faces) => faces.occludes_with(a, b, &self.tolerance, self.faults),
+            None => self
+                .solids
+                .occludes(occluder as usize - self.faces.len(), a, b),
+        }
     }
 
     #[inline(always)]
@@ -146,9 +188,9 @@ impl OccluderTree {
         scratch: &mut OcclusionScratch,
     ) -> OcclusionAnswer {
         let mut answer = OcclusionAnswer::default();
-        if let Some(faces) = last.and_then(|id| self.faces.get(id as usize)) {
+        if let Some(id) = *last {
             answer.tests += 1;
-            if faces.occludes_with(a, b, &self.tolerance, self.faults) {
+            if self.is_occluded_by(id, a, b) {
                 answer.occluder = *last;
                 answer.centre_blocked = true;
                 return answer;
@@ -175,7 +217,7 @@ impl OccluderTree {
                 }
                 answer.nodes += 1;
                 let octet = &self.leaves[child.index()];
-                let crossed = segment.crosses_rectangles(octet);
+                let crossed = octet.crossed_by(&segment);
                 if crossed == 0 {
                     continue;
                 }
@@ -183,12 +225,12 @@ impl OccluderTree {
                 // Two more segments that an occluder has to cross: most candidates fail one.
                 let (first, second) = (a.corner_count() - 1, b.corner_count() - 1);
                 let probe = ProbeSegment::new(a.corner(0), b.corner(second));
-                let mut candidates = crossed & probe.crosses_rectangles(octet);
+                let mut candidates = crossed & octet.crossed_by(&probe);
                 if candidates == 0 {
                     continue;
                 }
                 let probe = ProbeSegment::new(a.corner(first), b.corner(0));
-                candidates &= probe.crosses_rectangles(octet);
+                candidates &= octet.crossed_by(&probe);
                 while candidates != 0 {
                     let id = octet.ids[candidates.trailing_zeros() as usize];
                     candidates &= candidates - 1;
@@ -228,10 +270,29 @@ impl WithSimd for QueryKernel<'_> {
     }
 }
 
+/// [`OccluderTree::query_solids`] for one instruction set.
+struct SolidKernel<'a> {
+    tree: &'a OccluderTree,
+    a: &'a ElementBounds,
+    b: &'a ElementBounds,
+    scratch: &'a mut OcclusionScratch,
+}
+
+impl WithSimd for SolidKernel<'_> {
+    type Output = SolidAnswer;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> SolidAnswer {
+        let segment = ProbeSegment::new(self.a.centre(), self.b.centre());
+        let stack = &mut self.scratch.stack;
+        self.tree.solids.query(self.a, self.b, &segment, stack)
+    }
+}
+
 /// [`OccluderTree::occluded_by`] for one instruction set.
 struct SingleKernel<'a> {
     tree: &'a OccluderTree,
-    faces: &'a OccluderFaces,
+    occluder: u32,
     a: &'a ElementBounds,
     b: &'a ElementBounds,
 }
@@ -241,8 +302,7 @@ impl WithSimd for SingleKernel<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
-        self.faces
-            .occludes_with(self.a, self.b, &self.tree.tolerance, self.tree.faults)
+        self.tree.is_occluded_by(self.occluder, self.a, self.b)
     }
 }
 
@@ -284,76 +344,17 @@ impl RectangleOctet {
         }
         octet
     }
-}
 
-/// A segment between two points of a pair.
-struct ProbeSegment {
-    origin: Vec3,
-    along: Vec3,
-}
-
-impl ProbeSegment {
+    /// Bit per lane: `segment` crosses the rectangle.
     #[inline(always)]
-    fn new(from: Vec3, to: Vec3) -> Self {
-        Self {
-            origin: from,
-            along: to - from,
-        }
-    }
-
-    /// One over the components of its direction; large but finite where one vanishes, so that no
-    /// product is NaN.
-    #[inline(always)]
-    fn inverse(&self) -> Vec3 {
-        let inverse = |d: f32| {
-            if d.abs() > 1.0e-12 {
-                1.0 / d
-            } else {
-                1.0e12_f32.copysign(d)
-            }
-        };
-        Vec3::new(
-            inverse(self.along.x),
-            inverse(self.along.y),
-            inverse(self.along.z),
-        )
-    }
-
-    /// Bit per lane: the segment meets the box.
-    #[inline(always)]
-    fn meets_boxes(&self, inverse: Vec3, node: &WideNode) -> u32 {
-        let mut enter = [0.0_f32; 8];
-        let mut leave = [1.0_f32; 8];
-        for axis in 0..3 {
-            let (o, inverse) = (self.origin[axis], inverse[axis]);
-            let (near, far) = if inverse >= 0.0 {
-                (&node.boxes.min[axis], &node.boxes.max[axis])
-            } else {
-                (&node.boxes.max[axis], &node.boxes.min[axis])
-            };
-            for l in 0..8 {
-                let (t0, t1) = ((near[l] - o) * inverse, (far[l] - o) * inverse);
-                enter[l] = if t0 > enter[l] { t0 } else { enter[l] };
-                leave[l] = if t1 < leave[l] { t1 } else { leave[l] };
-            }
-        }
+    fn crossed_by(&self, segment: &ProbeSegment) -> u32 {
+        let (o, d) = (segment.origin, segment.along);
         let mut bits = [0_u32; 8];
         for l in 0..8 {
-            bits[l] = if enter[l] <= leave[l] { 1 << l } else { 0 };
-        }
-        bits.iter().fold(0, |mask, bit| mask | bit)
-    }
-
-    /// Bit per lane: the segment crosses the rectangle.
-    #[inline(always)]
-    fn crosses_rectangles(&self, octet: &RectangleOctet) -> u32 {
-        let (o, d) = (self.origin, self.along);
-        let mut bits = [0_u32; 8];
-        for l in 0..8 {
-            let x = o.x - octet.centre[0][l];
-            let y = o.y - octet.centre[1][l];
-            let z = o.z - octet.centre[2][l];
-            let (n, us, vs) = (&octet.normal, &octet.u, &octet.v);
+            let x = o.x - self.centre[0][l];
+            let y = o.y - self.centre[1][l];
+            let z = o.z - self.centre[2][l];
+            let (n, us, vs) = (&self.normal, &self.u, &self.v);
             let height = n[0][l] * x + n[1][l] * y + n[2][l] * z;
             let t = -height / (n[0][l] * d.x + n[1][l] * d.y + n[2][l] * d.z);
             let (x, y, z) = (x + t * d.x, y + t * d.y, z + t * d.z);

@@ -156,7 +156,7 @@ fn a_shaft_through_a_joint_of_two_rectangles_is_unknown() {
             2.0e-6,
         )
     };
-    let tree = OccluderTree::build(&[half(-0.2), half(0.2)], tolerance);
+    let tree = OccluderTree::build(&[half(-0.2), half(0.2)], &[], tolerance);
     let (mut last, mut scratch) = (None, OcclusionScratch::default());
     let below = cube(Vec3::new(0.0, 0.0, -0.3), 0.05);
     let across = tree.query(
@@ -195,7 +195,7 @@ fn the_tree_agrees_with_trying_every_occluder() {
         })
         .collect();
     let faces: Vec<OccluderFaces> = slabs.iter().map(OccluderFaces::new).collect();
-    let tree = OccluderTree::build(&slabs, tolerance);
+    let tree = OccluderTree::build(&slabs, &[], tolerance);
     let (mut last, mut scratch) = (None, OcclusionScratch::default());
     let (mut found, mut tests) = (0, 0);
     for _ in 0..4_000 {
@@ -257,7 +257,7 @@ fn the_planted_fault_makes_false_claims_that_the_replay_refutes() {
         beside_is_inside: true,
         ..Faults::NONE
     };
-    let tree = OccluderTree::build(&[slab], tolerance).with_faults(faults);
+    let tree = OccluderTree::build(&[slab], &[], tolerance).with_faults(faults);
     // The shaft passes wholly beside one edge; a centre segment that meets nothing is never tried,
     // so the false claim is asked for by name.
     let (a, b) = (

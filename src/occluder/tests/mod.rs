@@ -5,5 +5,6 @@ mod builders;
 mod containment;
 mod coverage;
 mod planted;
+mod solids;
 mod soundness;
 mod tessellation;

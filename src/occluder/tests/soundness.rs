@@ -134,6 +134,7 @@ fn greedy() -> OccluderConfig {
         flatness_degrees: 30.0,
         cone_degrees: 180.0,
         flush: true,
+        solids: true,
     }
 }
 

@@ -4,11 +4,13 @@ mod dyadic;
 mod occlusion_claim;
 mod scene_segment;
 mod segment;
+mod solid_claim;
 mod visibility_claim;
 
 pub use occlusion_claim::{OcclusionFlaw, replay_occlusion};
 pub use scene_segment::{SegmentStanding, judge_segment};
 pub use segment::{surely_blocked, surely_clear_of};
+pub use solid_claim::replay_solid_occlusion;
 pub use visibility_claim::{
     PolygonStanding, hull_is_separated, judge_polygon, visibility_counterexample,
 };

@@ -22,6 +22,20 @@ pub enum OcclusionFlaw {
         /// Edge of the face, starting at the corner of that number.
         edge: usize,
     },
+    /// An element is not beyond one face of the solid by more than `tau`.
+    #[error("an element is not outside of the solid by more than tau")]
+    NotOutside,
+    /// Segments may come into the solid and leave it through faces that nothing covers.
+    #[error("segments may pass the solid through faces that are open")]
+    OpenFace,
+    /// The segment between these corners misses the solid.
+    #[error("the segment between corners {a} and {b} misses the solid")]
+    MissesSolid {
+        /// Corner of the first element.
+        a: usize,
+        /// Corner of the second element.
+        b: usize,
+    },
 }
 
 /// Checks with exact orientation tests that every segment between a corner of `a` and a corner of
@@ -71,7 +85,7 @@ pub fn replay_occlusion(
 }
 
 /// True if `p` is on the `side` of the face's planes, whichever three corners span them.
-fn beyond(face: &[DVec3; 4], p: DVec3, side: f64) -> bool {
+pub(super) fn beyond(face: &[DVec3; 4], p: DVec3, side: f64) -> bool {
     (0..4).all(|i| {
         let (u, v, w) = (face[i], face[(i + 1) % 4], face[(i + 2) % 4]);
         side * determinant(v, w, p, u) > 0.0
