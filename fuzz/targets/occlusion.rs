@@ -4,7 +4,8 @@
 #![no_main]
 
 use certilux::math::Aabb;
-use certilux::visibility::exact::replay_occlusion;
+use certilux::occluder::{SlabRectangle, Solid};
+use certilux::visibility::exact::{replay_occlusion, replay_solid_occlusion};
 use certilux::visibility::{BoundsShape, ElementBounds, OccluderTree, OcclusionScratch, Tolerance};
 use certilux_fuzz::{Bytes, element, slab};
 use glam::Vec3;
@@ -20,6 +21,17 @@ fn strayed(bounds: &ElementBounds, bytes: &mut Bytes, step: f32) -> ElementBound
     ElementBounds::from_polygon(&corners)
 }
 
+/// A box with the rectangle as a face.
+fn solid_under(slab: &SlabRectangle, bytes: &mut Bytes) -> Solid {
+    let [a, b, c, d] = slab.corners;
+    let depth = slab.normal * bytes.point().x;
+    Solid {
+        centre: 0.5 * (a + c) + depth,
+        halves: [depth, 0.5 * (b - a), 0.5 * (d - a)],
+        covered: std::array::from_fn(|_| [(); 2].map(|()| bytes.below(4) != 0)),
+    }
+}
+
 fuzz_target!(|data: &[u8]| {
     let bytes = &mut Bytes::new(data);
     let slabs: Vec<_> = (0..=bytes.below(10)).map(|_| slab(bytes)).collect();
@@ -29,7 +41,7 @@ fuzz_target!(|data: &[u8]| {
         max: Vec3::splat(0.5),
     };
     let tolerance = Tolerance::of_scene(cube);
-    let tree = OccluderTree::build(&slabs, tolerance);
+    let tree = OccluderTree::build(&slabs, &[], tolerance);
     let answer = tree.query(&a, &b, &mut None, &mut OcclusionScratch::default());
     let every = (0..slabs.len() as u32).filter(|&id| tree.occluded_by(id, &a, &b));
     let claims: Vec<u32> = every.collect();
@@ -42,6 +54,23 @@ fuzz_target!(|data: &[u8]| {
             let a = strayed(&a, bytes, 0.9 * tolerance.nesting);
             let b = strayed(&b, bytes, 0.9 * tolerance.nesting);
             assert_eq!(replay_occlusion(slab, &a, &b, &tolerance), Ok(()));
+        }
+    }
+    // The boxes under the rectangles, some of their faces open.
+    let solids: Vec<Solid> = slabs.iter().map(|slab| solid_under(slab, bytes)).collect();
+    let tree = OccluderTree::build(&[], &solids, tolerance);
+    let answer = tree.query_solids(&a, &b, &mut None, &mut OcclusionScratch::default());
+    let every = (0..solids.len() as u32).filter(|&id| tree.occluded_by(id, &a, &b));
+    let claims: Vec<u32> = every.collect();
+    // The walk tries those that the segment between the centres meets up to rounding.
+    assert!(answer.occluder.is_none() || !claims.is_empty());
+    for id in claims {
+        let solid = &solids[id as usize];
+        assert_eq!(replay_solid_occlusion(solid, &a, &b, &tolerance), Ok(()));
+        if a.shape() != BoundsShape::Box {
+            let a = strayed(&a, bytes, 0.9 * tolerance.nesting);
+            let b = strayed(&b, bytes, 0.9 * tolerance.nesting);
+            assert_eq!(replay_solid_occlusion(solid, &a, &b, &tolerance), Ok(()));
         }
     }
 });
