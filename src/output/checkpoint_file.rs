@@ -14,7 +14,7 @@ use std::sync::atomic::AtomicBool;
 
 const MAGIC: [u8; 8] = *b"CTLXCKPT";
 /// The layout described above.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const DIGEST_BYTES: usize = 32;
 
 /// What made a state: another program or library may round another way.
@@ -53,6 +53,14 @@ pub enum CheckpointProblem {
         "has format {found}, newer than this program's {VERSION}: use the certilux that wrote it"
     )]
     Newer {
+        /// The layout's version.
+        found: u32,
+    },
+    /// An earlier program wrote it.
+    #[error(
+        "has format {found}, older than this program's {VERSION}: use the certilux that wrote it, or solve anew"
+    )]
+    Older {
         /// The layout's version.
         found: u32,
     },
@@ -154,9 +162,10 @@ fn decode(mut bytes: Vec<u8>, key: &CheckpointKey) -> Result<Snapshot, Checkpoin
         .map(|b| u32::from_le_bytes(*b));
     match version {
         None => return Err(damaged("it ends too early")),
-        // Before the checksum, whose place is the later version's affair.
+        // Before the checksum, whose place is the other version's affair.
+        Some(0) => return Err(damaged("there is no such format")),
         Some(found) if found > VERSION => return Err(CheckpointProblem::Newer { found }),
-        Some(found) if found < VERSION => return Err(damaged("there is no such format")),
+        Some(found) if found < VERSION => return Err(CheckpointProblem::Older { found }),
         Some(_) => {}
     }
     let body = bytes.len().saturating_sub(DIGEST_BYTES);
@@ -308,25 +317,24 @@ mod tests {
         assert!(matches!(problem(&path), CheckpointProblem::Damaged(_)));
     }
 
-    /// A later version with a right checksum is refused for what it is.
+    /// Another version with a right checksum is refused for what it is.
     #[test]
-    fn a_newer_one_is_called_newer() {
+    fn one_of_another_version_is_called_newer_or_older() {
         let Written {
             folder: _kept,
             path,
             mut bytes,
         } = written();
-        bytes[8..12].copy_from_slice(&(VERSION + 1).to_le_bytes());
-        let body = bytes.len() - DIGEST_BYTES;
-        let digest = Sha256::digest(&bytes[..body]);
-        bytes[body..].copy_from_slice(&digest);
-        fs::write(&path, &bytes).unwrap();
-        let error = read_checkpoint(&path, &key()).unwrap_err();
-        let text = error.to_string();
-        assert!(
-            text.contains("newer") && text.contains("format 2"),
-            "{text}"
-        );
+        for (version, age) in [(VERSION + 1, "newer"), (VERSION - 1, "older")] {
+            bytes[8..12].copy_from_slice(&version.to_le_bytes());
+            let body = bytes.len() - DIGEST_BYTES;
+            let digest = Sha256::digest(&bytes[..body]);
+            bytes[body..].copy_from_slice(&digest);
+            fs::write(&path, &bytes).unwrap();
+            let text = read_checkpoint(&path, &key()).unwrap_err().to_string();
+            let format = format!("format {version}, {age}");
+            assert!(text.contains(&format), "{text}");
+        }
     }
 
     #[test]

@@ -5,12 +5,16 @@ use super::composite_rule::{CompositeRule, MOST_POINTS, three_points};
 use super::element::{Element, Shape};
 use super::element_vector::{Space, element_vector};
 use super::irradiance_kernel::{Shining, irradiance_on};
+use super::push_pull::local_children;
 use crate::math::NodeId;
+use crate::visibility::PARTS;
 use glam::Vec3;
 
 /// Levels below a receiving cluster whose centroids are its points, and the gap in its radii from which they serve:
 /// two from 4 radii on instead of eight leave the error of a solve the same (`bench/runs/`, accuracy).
-const POINTS_OF_A_CLUSTER: [(f32, u32); 3] = [(10.0, 0), (4.0, 1), (0.0, 3)];
+const POINTS_OF_A_CLUSTER: [(f32, u32); 3] = [(10.0, 0), (4.0, 1), (0.0, MOST_LEVELS)];
+/// Most levels below a receiving cluster: as many nodes as there are parts whose visibility is told apart.
+const MOST_LEVELS: u32 = PARTS.ilog2();
 
 /// Whether one vector stands for the normals of each end (always for triangles); where not, every
 /// facet is asked.
@@ -27,19 +31,58 @@ pub struct Flatness {
 pub enum Arrival {
     /// On a triangle: the linear function that fits best, by its values at the three corners.
     Linear([f32; 3]),
-    /// On a flat cluster: the mean irradiance vector, to be dotted with each facet's normal.
-    Vector(Vec3),
+    /// On a flat cluster: irradiance vectors of nodes of it, to be dotted with each facet's normal.
+    Vectors(NodeVectors),
     /// On a cluster of any shape: the irradiance vector at its centroid, whose dot product with each
     /// facet's normal counts where it is positive.
     Field(Vec3),
 }
 
+/// Irradiance vectors of nodes that make up a cluster.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeVectors {
+    count: usize,
+    vectors: [(u32, Vec3); PARTS],
+    /// First facets of the nodes.
+    first_facets: [u32; PARTS],
+}
+
+impl NodeVectors {
+    const NONE: Self = Self {
+        count: 0,
+        vectors: [(0, Vec3::ZERO); PARTS],
+        first_facets: [0; PARTS],
+    };
+
+    fn push(&mut self, local: usize, first_facet: u32, vector: Vec3) {
+        self.first_facets[self.count] = first_facet;
+        self.vectors[self.count] = (local as u32, vector);
+        self.count += 1;
+    }
+
+    /// Places in the owner's depth-first order of nodes, and the vectors there.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, Vec3)> + '_ {
+        self.vectors[..self.count]
+            .iter()
+            .map(|&(local, vector)| (local as usize, vector))
+    }
+}
+
 impl Arrival {
+    /// First facets of all parts but the first of which the light is told apart, on a flat cluster.
+    pub fn parts(&self) -> &[u32] {
+        match self {
+            Self::Vectors(nodes) => &nodes.first_facets[1..nodes.count.max(1)],
+            Self::Linear(_) | Self::Field(_) => &[],
+        }
+    }
+
     /// True when nothing arrives.
     pub fn is_zero(&self) -> bool {
-        match *self {
-            Self::Linear(e) => e == [0.0; 3],
-            Self::Vector(v) | Self::Field(v) => v == Vec3::ZERO,
+        match self {
+            Self::Linear(e) => *e == [0.0; 3],
+            Self::Field(v) => *v == Vec3::ZERO,
+            Self::Vectors(nodes) => nodes.iter().all(|(_, v)| v == Vec3::ZERO),
         }
     }
 }
@@ -54,6 +97,7 @@ pub fn arrival(
     space: &Space,
     source: &Element,
     receiver: &Element,
+    local: u32,
     flatness: Flatness,
 ) -> (Arrival, f32) {
     let gap = source.bounds.distance(receiver.bounds);
@@ -113,9 +157,11 @@ pub fn arrival(
             let levels = POINTS_OF_A_CLUSTER
                 .iter()
                 .find(|(radii, _)| gap > radii * receiver.radius)
-                .map_or(3, |&(_, levels)| levels);
-            let sum = cluster_mean(space, source, receiver.node, levels, flatness.source);
-            (Arrival::Vector(sum / receiver.area), 0.0)
+                .map_or(MOST_LEVELS, |&(_, levels)| levels);
+            let mut nodes = NodeVectors::NONE;
+            let place = (receiver.node, local as usize);
+            node_vectors(space, source, place, levels, flatness.source, &mut nodes);
+            (Arrival::Vectors(nodes), 0.0)
         }
         Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
     }
@@ -208,26 +254,37 @@ fn irradiance_at(
     }
 }
 
-/// Area times mean irradiance vector of a receiving cluster, from the nodes `levels` below.
-fn cluster_mean(
+/// Irradiance vectors of the nodes `levels` below a receiving cluster.
+fn node_vectors(
     space: &Space,
     source: &Element,
-    receiver: NodeId,
+    (receiver, local): (NodeId, usize),
     levels: u32,
     flat: bool,
-) -> Vec3 {
+    nodes: &mut NodeVectors,
+) {
     let shape = space.hierarchy.shape(receiver);
     let at = |p: Vec3| element_vector(space, source, p, None, flat);
     match space.hierarchy.children(receiver) {
-        _ if levels == 0 => at(shape.centroid) * shape.area,
+        _ if levels == 0 => nodes.push(
+            local,
+            space.hierarchy.node(receiver).first_facet,
+            at(shape.centroid),
+        ),
         None => {
             let facet = space.hierarchy.facets[space.hierarchy.facet_of_leaf(receiver).index()];
             let points = three_points(space.scene.facet_corners(facet));
-            points.into_iter().map(at).sum::<Vec3>() * (shape.area / 3.0)
+            nodes.push(
+                local,
+                space.hierarchy.node(receiver).first_facet,
+                points.into_iter().map(at).sum::<Vec3>() / 3.0,
+            );
         }
-        Some(children) => children
-            .into_iter()
-            .map(|child| cluster_mean(space, source, child, levels - 1, flat))
-            .sum(),
+        Some(children) => {
+            let locals = local_children(space.hierarchy, children[0], local);
+            for place in children.into_iter().zip(locals) {
+                node_vectors(space, source, place, levels - 1, flat, nodes);
+            }
+        }
     }
 }

@@ -1,17 +1,17 @@
 //! One exchange: radiosity x form factor x visibility, and where its visibility comes from (paper, section 4;
 //! design, section 6).
 
-use super::arrival::{Arrival, Flatness, arrival};
+use super::arrival::{Flatness, arrival};
 use super::claim_check::Recording;
 use super::claims::Claim;
 use super::config::Technique;
 use super::element::Element;
 use super::element_vector::Space;
-use super::pair::{Known, Receiver, Source, exchange_key};
+use super::pair::{Known, Receiver, Source, Target, exchange_key};
 use super::query_schedule::{Evidence, Occasion, Queries};
 use super::task::{Task, packets_of_exchange};
 use crate::math::hash_u64;
-use crate::visibility::{AllClear, LEAST_COSINE, SampledVisibility, Verdict};
+use crate::visibility::{AllClear, LEAST_COSINE, PartVisibility, SampledVisibility, Verdict};
 
 /// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
 /// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
@@ -55,6 +55,7 @@ impl<const C: usize> Task<'_, '_, C> {
             },
             &source.element,
             &receiver.element,
+            receiver.local,
             Flatness {
                 source: oracle.is_flat_towards(&source.element, &receiver.element),
                 receiver: oracle.is_flat_towards(&receiver.element, &source.element),
@@ -93,10 +94,14 @@ impl<const C: usize> Task<'_, '_, C> {
         if known.ends_the_pair(self.pass.config) {
             return Next::Done;
         }
+        let target = Target {
+            element: &receiver.element,
+            parts: unoccluded.parts(),
+        };
         let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
-            (Technique::Unoccluded, _) => 1.0,
+            (Technique::Unoccluded, _) => PartVisibility::CLEAR,
             (_, Verdict::Unknown) => {
-                let Some(sampled) = self.sampled(source, receiver, carried, known) else {
+                let Some(sampled) = self.sampled(source, target, carried, known) else {
                     return Next::SplitShadow(known);
                 };
                 sampled
@@ -109,7 +114,7 @@ impl<const C: usize> Task<'_, '_, C> {
                     Verdict::Visible => {
                         self.observe(Evidence::Clear);
                         self.outcome.statistics.exchanges_visible += 1;
-                        self.visible_share(source, &receiver.element, carried)
+                        self.visible_share(source, target, carried)
                     }
                     // Reached only while claims are being checked.
                     _ => return Next::Done,
@@ -118,10 +123,10 @@ impl<const C: usize> Task<'_, '_, C> {
         };
         self.outcome.statistics.exchanges += 1;
         // Below zero where a second set stands for others that the first overrated.
-        if visibility != 0.0 {
+        if visibility != PartVisibility::even(0.0) {
             let radiosity = self.radiosity(source).map(f64::from);
-            let light = radiosity.map(|b| b * source.weight * f64::from(visibility));
-            self.deposit(receiver, unoccluded, light);
+            let light = radiosity.map(|b| b * source.weight);
+            self.deposit(receiver, &unoccluded, &visibility, light);
         }
         Next::Done
     }
@@ -130,23 +135,22 @@ impl<const C: usize> Task<'_, '_, C> {
     fn sampled(
         &mut self,
         source: &Source,
-        receiver: &Receiver,
+        target: Target,
         carried: f64,
         known: Known,
-    ) -> Option<f32> {
-        let mut sampled = self.sample_where_cheapest(source, &receiver.element, known, 0);
+    ) -> Option<PartVisibility> {
+        let mut sampled = self.sample_where_cheapest(source, target, known, 0);
         self.observe(Evidence::of(&sampled));
-        if self.refines_if_partial(&receiver.element, carried) {
+        if self.refines_if_partial(target.element, carried) {
             if !(sampled.all_blocked || sampled.all_clear) {
                 return None;
             }
             // Samples that decide cannot measure as well: a slit that most sets of samples miss would pass light
             // only where it is found and refined, and too little in the mean. What a few second sets find instead
             // stands for all (a control variate, so that the mean is right).
-            if sampled.rays > 0 && self.measures_again(source, &receiver.element) {
-                let again = self.sample_where_cheapest(source, &receiver.element, known, 1);
-                sampled.visibility +=
-                    MEASURED_ONE_IN as f32 * (again.visibility - sampled.visibility);
+            if sampled.rays > 0 && self.measures_again(source, target.element) {
+                let again = self.sample_where_cheapest(source, target, known, 1);
+                sampled.visibility = measured(&sampled, &again);
                 sampled.all_blocked &= again.all_blocked;
                 sampled.all_clear &= again.all_clear;
                 sampled.rays_blocked += again.rays_blocked;
@@ -158,7 +162,7 @@ impl<const C: usize> Task<'_, '_, C> {
         statistics.exchanges_blocked += u64::from(blocked);
         statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
         if blocked && self.outcome.blocked.is_wanted() {
-            self.keep_blocked(&source.element, &receiver.element);
+            self.keep_blocked(&source.element, target.element);
         }
         Some(sampled.visibility)
     }
@@ -184,7 +188,7 @@ impl<const C: usize> Task<'_, '_, C> {
     fn sample_where_cheapest(
         &mut self,
         source: &Source,
-        receiver: &Element,
+        target: Target,
         known: Known,
         round: u64,
     ) -> SampledVisibility {
@@ -201,12 +205,12 @@ impl<const C: usize> Task<'_, '_, C> {
                         test: list,
                         segments: &mut self.segments,
                     };
-                    self.pass.sample(test, source, receiver, rays, round)
+                    self.pass.sample(test, source, target, rays, round)
                 } else {
-                    self.pass.sample(list, source, receiver, rays, round)
+                    self.pass.sample(list, source, target, rays, round)
                 };
                 if checks {
-                    self.check_native(source, receiver, round);
+                    self.check_native(source, target.element, round);
                 }
                 let statistics = &mut self.outcome.statistics;
                 statistics.native_rays += u64::from(sampled.rays);
@@ -216,8 +220,8 @@ impl<const C: usize> Task<'_, '_, C> {
         }
         let sampled = self
             .pass
-            .sample(self.pass.context.embree, source, receiver, rays, round);
-        self.count_rays(receiver, &sampled);
+            .sample(self.pass.context.embree, source, target, rays, round);
+        self.count_rays(target.element, &sampled);
         sampled
     }
 
@@ -228,7 +232,8 @@ impl<const C: usize> Task<'_, '_, C> {
 
     /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
     /// technique without proofs would find none either.
-    fn visible_share(&self, source: &Source, receiver: &Element, carried: f64) -> f32 {
+    fn visible_share(&self, source: &Source, target: Target, carried: f64) -> PartVisibility {
+        let receiver = target.element;
         let is_open = |element: &Element| {
             let context = self.pass.context;
             let facet = context.hierarchy.facets[element.first_facet as usize];
@@ -239,18 +244,17 @@ impl<const C: usize> Task<'_, '_, C> {
             && source.element.faces_beyond(receiver, LEAST_COSINE)
             && receiver.faces_beyond(&source.element, LEAST_COSINE)
         {
-            return 1.0;
+            return PartVisibility::CLEAR;
         }
         let rays = self.pass.config.rays;
-        let first = self.pass.sample(AllClear, source, receiver, rays, 0);
+        let first = self.pass.sample(AllClear, source, target, rays, 0);
         if (first.all_clear || first.all_blocked)
             && first.rays > 0
             && self.refines_if_partial(receiver, carried)
             && self.measures_again(source, receiver)
         {
-            let again = self.pass.sample(AllClear, source, receiver, rays, 1);
-            return first.visibility
-                + MEASURED_ONE_IN as f32 * (again.visibility - first.visibility);
+            let again = self.pass.sample(AllClear, source, target, rays, 1);
+            return measured(&first, &again);
         }
         first.visibility
     }
@@ -264,7 +268,8 @@ impl<const C: usize> Task<'_, '_, C> {
             segments: &mut cast,
         };
         let rays = self.pass.config.rays;
-        self.pass.sample(test, source, receiver, rays, round);
+        self.pass
+            .sample(test, source, Target::whole(receiver), rays, round);
         if let Some(guarantees) = self.pass.context.guarantees {
             let check = &mut self.outcome.check;
             check.judge_native(&guarantees.scene, &native, &cast);
@@ -286,7 +291,8 @@ impl<const C: usize> Task<'_, '_, C> {
                 test: self.pass.context.embree,
                 segments: &mut segments,
             };
-            self.pass.sample(recording, source, receiver, rays, round);
+            self.pass
+                .sample(recording, source, Target::whole(receiver), rays, round);
         }
         self.outcome
             .check
@@ -294,36 +300,9 @@ impl<const C: usize> Task<'_, '_, C> {
         segments.clear();
         self.segments = segments;
     }
+}
 
-    fn deposit(&mut self, receiver: &Receiver, unoccluded: Arrival, light: [f64; C]) {
-        match unoccluded {
-            Arrival::Linear(irradiance) => {
-                let element = &receiver.element;
-                let at = self.gatherer.patch(element.facet(), element.path);
-                for (corner, value) in self.gatherer.gathered[at].iter_mut().zip(irradiance) {
-                    for (sum, b) in corner.iter_mut().zip(light) {
-                        *sum += b * f64::from(value);
-                    }
-                }
-            }
-            Arrival::Field(vector) => {
-                let first = self.gatherer.first_facet as usize;
-                for facet in receiver.element.facet_range() {
-                    let irradiance = self.pass.context.normals[facet].dot(vector).max(0.0);
-                    for corner in &mut self.gatherer.gathered[facet - first] {
-                        for (sum, b) in corner.iter_mut().zip(light) {
-                            *sum += b * f64::from(irradiance);
-                        }
-                    }
-                }
-            }
-            Arrival::Vector(vector) => {
-                let vector = vector.as_dvec3();
-                let sums = &mut self.gatherer.vectors[receiver.local as usize];
-                for (sum, b) in sums.iter_mut().zip(light) {
-                    *sum += vector * b;
-                }
-            }
-        }
-    }
+/// What a second set of samples says for all whose first agree.
+fn measured(first: &SampledVisibility, again: &SampledVisibility) -> PartVisibility {
+    (first.visibility).corrected(&again.visibility, MEASURED_ONE_IN as f32)
 }

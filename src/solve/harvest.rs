@@ -8,8 +8,8 @@ use super::statistics::PowerLedger;
 use crate::math::FacetId;
 
 impl<const C: usize> Solver<'_, C> {
-    /// Where the power went, with so much left unshot.
-    pub(super) fn ledger(&self, unshot: f64) -> PowerLedger {
+    /// Where the power went, with so much left unshot, and so much that arrives in passes that were not made.
+    pub(super) fn ledger(&self, unshot: f64, extrapolated: f64) -> PowerLedger {
         let mut absorbed = 0.0;
         let mut radiating = Vec::new();
         self.for_each_leaf(|facet, path, area, owner, at| {
@@ -48,6 +48,7 @@ impl<const C: usize> Solver<'_, C> {
             escaped_stderr: self.to_watts(lost.escaped_stderr),
             unshot: self.to_watts(unshot),
             imbalance,
+            extrapolated: self.to_watts(extrapolated),
         }
     }
 

@@ -5,6 +5,9 @@ mod claim_check;
 mod claims;
 mod composite_rule;
 mod config;
+mod deposit;
+#[cfg(test)]
+mod deposit_tests;
 mod element;
 mod element_name;
 mod element_vector;
@@ -55,6 +58,7 @@ mod solve;
 mod solve_tests;
 mod solver;
 mod statistics;
+mod tail;
 mod task;
 mod triangle_vector;
 mod walk;

@@ -188,10 +188,6 @@ impl Oracle {
     /// shadow's edge runs through it, and it `carried` enough. The source is not: over it visibility is averaged, by
     /// the samples of one exchange as well as by an exchange a part.
     pub fn refines_shadow(&self, receiver: &Element, carried: f64) -> bool {
-        // A cluster would pass its light on to the facets in shadow too.
-        if !receiver.is_triangle() {
-            return true;
-        }
         carried >= PARTIAL_SHARE * self.threshold && self.can_split(receiver)
     }
 

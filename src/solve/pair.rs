@@ -26,6 +26,24 @@ pub(super) struct Receiver {
     pub(super) local: u32,
 }
 
+/// A receiver to be sampled.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) element: &'a Element,
+    /// First facets of all parts of a cluster but the first: the parts whose visibility is told apart.
+    pub(super) parts: &'a [u32],
+}
+
+impl<'a> Target<'a> {
+    /// A receiver whose parts do not matter.
+    pub(super) fn whole(element: &'a Element) -> Self {
+        Self {
+            element,
+            parts: &[],
+        }
+    }
+}
+
 /// What is known of a pair, and the claim that it rests on.
 #[derive(Clone, Copy)]
 pub(super) struct Known {

@@ -7,7 +7,7 @@ use super::flux_tree::FluxTree;
 use super::guarantees::Guarantees;
 use super::observer::Observer;
 use super::oracle::Oracle;
-use super::pair::{Source, exchange_key};
+use super::pair::{Source, Target, exchange_key};
 use super::power_vectors::PowerVectors;
 use super::radiosity::Shooter;
 use super::sampled_element::{ReceiverSurface, SourceSurface};
@@ -85,12 +85,16 @@ impl<const C: usize> Pass<'_, C> {
         &self,
         test: impl SegmentTest,
         source: &Source,
-        receiver: &Element,
+        receiver: Target,
         rays: u32,
         round: u64,
     ) -> SampledVisibility {
         let context = self.context;
-        let key = exchange_key(self.key.wrapping_add(round), &source.element, receiver);
+        let key = exchange_key(
+            self.key.wrapping_add(round),
+            &source.element,
+            receiver.element,
+        );
         sample_visibility(
             self.arch,
             test,
@@ -107,11 +111,12 @@ impl<const C: usize> Pass<'_, C> {
                 slot: source.slot,
             },
             &ReceiverSurface {
-                element: receiver,
+                element: receiver.element,
                 scene: context.scene,
                 hierarchy: context.hierarchy,
                 frames: context.frames,
                 area_before: context.area_before,
+                parts: receiver.parts,
             },
             rays,
             key,

@@ -123,7 +123,7 @@ fn reflect<const C: usize>(
 }
 
 /// Corner values of child `which` of a linear function, numbered as `split_triangle` does.
-fn split_values<const C: usize>(values: &[Light<C>; 3], which: usize) -> [Light<C>; 3] {
+pub fn split_values<const C: usize>(values: &[Light<C>; 3], which: usize) -> [Light<C>; 3] {
     let mid = |i: usize, j: usize| -> Light<C> {
         std::array::from_fn(|c| 0.5 * (values[i][c] + values[j][c]))
     };

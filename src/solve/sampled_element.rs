@@ -9,7 +9,7 @@ use super::patch_split::{BELOW_ONE, PatchSplit};
 use super::radiosity::Shooter;
 use crate::cluster::Hierarchy;
 use crate::scene::{Facet, Scene};
-use crate::visibility::{PointOctet, Surface};
+use crate::visibility::{PointOctet, Surface, children_of_triangle};
 
 /// A receiver.
 pub struct ReceiverSurface<'a> {
@@ -23,6 +23,8 @@ pub struct ReceiverSurface<'a> {
     pub frames: &'a [FacetFrame],
     /// Sums of the areas before each facet.
     pub area_before: &'a [f64],
+    /// First facets of all parts of a cluster but the first.
+    pub parts: &'a [u32],
 }
 
 impl Surface for ReceiverSurface<'_> {
@@ -41,6 +43,15 @@ impl Surface for ReceiverSurface<'_> {
             return points;
         }
         self.cluster_points(u, v, lanes)
+    }
+
+    #[inline(never)]
+    fn parts(&self, u: &[f32; 8], v: &[f32; 8]) -> [u8; 8] {
+        if self.element.is_triangle() {
+            return children_of_triangle(u, v);
+        }
+        let (facets, _) = choose_facets(self.element, self.area_before, u);
+        facets.map(|facet| part_of(self.parts, facet))
     }
 }
 
@@ -66,6 +77,14 @@ impl ReceiverSurface<'_> {
         }
         points
     }
+}
+
+/// The part that holds a facet, by the first facets of all parts but the first.
+fn part_of(first_facets: &[u32], facet: usize) -> u8 {
+    let before = first_facets
+        .iter()
+        .filter(|&&first| first as usize <= facet);
+    before.count() as u8
 }
 
 /// A source.
@@ -212,4 +231,48 @@ fn choose_facets(element: &Element, before: &[f64], u: &[f32; 8]) -> ([usize; 8]
         rest.clamp(0.0, BELOW_ONE)
     });
     (chosen.map(|facet| first + facet), rests)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::SampleSequence;
+    use crate::solve::split_triangle;
+    use glam::Vec3;
+
+    #[test]
+    fn points_of_a_triangle_lie_in_the_children_that_they_are_said_to() {
+        let corners = [
+            Vec3::new(0.1, 0.2, 0.0),
+            Vec3::new(1.3, 0.1, 0.0),
+            Vec3::new(0.4, 0.9, 0.0),
+        ];
+        let mut met = [0; 4];
+        for index in (0..512).step_by(8) {
+            let [u, v, ..] = SampleSequence::new(7).points(index);
+            let points = PointOctet::of_triangle(corners, Vec3::Z, &u, &v);
+            for (l, &which) in children_of_triangle(&u, &v).iter().enumerate() {
+                let [a, b, c] = split_triangle(corners, u32::from(which));
+                let p = points.position(l);
+                for (from, to) in [(a, b), (b, c), (c, a)] {
+                    assert!(
+                        (to - from).cross(p - from).z > -1.0e-6,
+                        "{p} is not in child {which}"
+                    );
+                }
+                met[usize::from(which)] += 1;
+            }
+        }
+        // A quarter each, within three standard deviations of random ones.
+        assert!(met.iter().all(|&n| (98..=158).contains(&n)), "{met:?}");
+    }
+
+    #[test]
+    fn parts_of_a_cluster_begin_where_they_are_said_to() {
+        assert_eq!(
+            [3, 4, 6, 7, 90].map(|facet| part_of(&[4, 7, 8], facet)),
+            [0, 1, 1, 2, 3]
+        );
+        assert_eq!(part_of(&[], 5), 0);
+    }
 }

@@ -6,8 +6,9 @@
 //! light is spread over its children, is pulled anew, as at the end of every pass; the schedule of queries learns
 //! within one pass and is not carried over.
 //!
-//! Layout, little endian: channels (u32), passes (u32) with their statistics and scales, power dropped (f64),
-//! owners (u32), facets (u32); then each owner's count of facets and patches (u32 each) and its arrays.
+//! Layout, little endian: channels (u32), passes (u32) with their statistics and scales, power dropped (f64), power
+//! that the last pass shot (f64 a channel), owners (u32), facets (u32); then each owner's count of facets and patches
+//! (u32 each) and its arrays.
 
 use super::patch_split::PatchSplit;
 use super::radiosity::{Gatherer, Light, Radiosity, Shooter};
@@ -22,6 +23,8 @@ pub struct Carried {
     pub passes: Vec<PassStatistics>,
     /// The scale of each pass (1 without row normalisation).
     pub scales: Vec<f64>,
+    /// Power of each channel that the last pass shot.
+    pub shot: Vec<f64>,
     /// Power dropped so far, greatest channel, an upper bound.
     pub dropped: f64,
 }
@@ -53,6 +56,7 @@ impl Snapshot {
             out.f64(*scale);
         }
         out.f64(carried.dropped);
+        carried.shot.iter().for_each(|&power| out.f64(power));
         out.u32(light.gatherers.len() as u32);
         out.u32(light.owner_of_facet.len() as u32);
         for (gatherer, shooter) in light.gatherers.iter().zip(&light.shooters) {
@@ -76,7 +80,7 @@ impl Snapshot {
     ) -> Result<Carried, SnapshotError> {
         let mut input = Reader(&self.bytes);
         input.expect("channels", C)?;
-        let carried = read_carried(&mut input)?;
+        let carried = read_carried(&mut input, C)?;
         input.expect("receivers", light.gatherers.len())?;
         input.expect("facets", light.owner_of_facet.len())?;
         let mut owners = Vec::with_capacity(light.gatherers.len());
@@ -139,7 +143,7 @@ impl<const C: usize> Owner<C> {
     }
 }
 
-fn read_carried(input: &mut Reader) -> Result<Carried, SnapshotError> {
+fn read_carried(input: &mut Reader, channels: usize) -> Result<Carried, SnapshotError> {
     let mut carried = Carried::default();
     for number in 1..=input.u32()? {
         let pass = input.pass()?;
@@ -150,6 +154,9 @@ fn read_carried(input: &mut Reader) -> Result<Carried, SnapshotError> {
         carried.scales.push(input.finite()?);
     }
     carried.dropped = input.finite()?;
+    for _ in 0..channels {
+        carried.shot.push(input.finite()?);
+    }
     Ok(carried)
 }
 

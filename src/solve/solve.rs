@@ -8,7 +8,7 @@ use super::observer::Observer;
 use super::prepared::PreparedScene;
 use super::snapshot::{Carried, Snapshot, SnapshotError};
 use super::solution::Solution;
-use super::solver::Solver;
+use super::solver::{Solver, mean};
 use super::statistics::{PassStatistics, PowerLedger};
 
 /// Share of the emitted power unaccounted for from which a solve warns: default settings promise less, and the ledger's
@@ -92,7 +92,7 @@ impl<const C: usize> Solver<'_, C> {
         let mut check = ClaimCheck::default();
         let normalise = self.normalises();
         let mut unshot = self.unshot_power();
-        while !self.is_done(&carried.passes, unshot, &mut warnings) {
+        while !self.is_done(&carried.passes, mean(&unshot), &mut warnings) {
             let pass = carried.passes.len() as u32 + 1;
             let (outcome, scale) = self.pass(pass, normalise)?;
             let mut statistics = outcome.statistics;
@@ -100,15 +100,21 @@ impl<const C: usize> Solver<'_, C> {
             carried.scales.push(scale);
             claims.merge(outcome.claims);
             check.merge(outcome.check);
+            carried.shot = unshot.to_vec();
             unshot = self.unshot_power();
-            statistics.unshot = self.to_watts(unshot);
+            statistics.unshot = self.to_watts(mean(&unshot));
             carried.passes.push(statistics);
             self.observer
-                .pass_done(&statistics, self.share_of_emitted(unshot));
+                .pass_done(&statistics, self.share_of_emitted(mean(&unshot)));
             self.observer
                 .state_reached(&|| Snapshot::take(&carried, &self.light));
         }
-        let power = self.ledger(unshot + self.dropped_mean(carried.dropped));
+        let extrapolated = match (self.config.stop, carried.shot.as_slice().try_into()) {
+            (Stop::Converged(_), Ok(shot)) => self.add_tail(&shot),
+            _ => 0.0,
+        };
+        let unshot = mean(&self.unshot_power()) + self.dropped_mean(carried.dropped);
+        let power = self.ledger(unshot, extrapolated);
         let is_off = power.imbalance.abs() > IMBALANCE_TO_WARN_OF;
         if is_off && self.config.technique != Technique::Unoccluded {
             warnings.push(format!(

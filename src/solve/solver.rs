@@ -131,7 +131,7 @@ impl<'a, const C: usize> Solver<'a, C> {
         normalise: bool,
     ) -> Result<(PassOutcome, f64), SolveError> {
         let start = Instant::now();
-        let shot = self.unshot_power();
+        let shot = mean(&self.unshot_power());
         let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
         let mut light = std::mem::take(&mut self.light);
         let mut outcome = run_pass(self.context(), self.config, &mut light, pass, greatest);
@@ -169,26 +169,28 @@ impl<'a, const C: usize> Solver<'a, C> {
             });
     }
 
-    /// Mean of the channels of the power that has yet to be shot.
-    pub(super) fn unshot_power(&self) -> f64 {
-        self.light
+    /// Power of each channel that has yet to be shot.
+    pub(super) fn unshot_power(&self) -> Light<C> {
+        let parts: Vec<Light<C>> = self
+            .light
             .gatherers
             .par_iter()
             .zip(&self.light.shooters)
             .map(|(gatherer, shooter)| {
-                let mut sum = 0.0;
+                let mut sum = [0.0; C];
                 sum_leaves(
                     gatherer,
                     |f| self.table.area(f),
                     |_, at, area| {
-                        sum += area * mean(&shooter.unshot[at].map(f64::from));
+                        for (sum, unshot) in sum.iter_mut().zip(shooter.unshot[at]) {
+                            *sum += area * f64::from(unshot);
+                        }
                     },
                 );
                 sum
             })
-            .collect::<Vec<f64>>()
-            .iter()
-            .sum()
+            .collect();
+        std::array::from_fn(|c| parts.iter().map(|part| part[c]).sum())
     }
 
     /// Mean of the channels of the power that this pass brought, before it is pushed.

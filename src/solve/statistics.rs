@@ -69,8 +69,11 @@ pub struct PowerLedger {
     pub escaped: f64,
     /// Standard error of `escaped`.
     pub escaped_stderr: f64,
-    /// Still to be shot.
+    /// Left out of the solution: dropped, or still to be shot where passes were counted.
     pub unshot: f64,
     /// `(emitted - absorbed - escaped - unshot) / emitted`.
     pub imbalance: f64,
+    /// What arrives on surfaces in the passes that were not made, from the last one as a geometric series; a part of
+    /// what is absorbed and escaped. 0 where passes were counted.
+    pub extrapolated: f64,
 }

@@ -10,6 +10,7 @@ mod faults;
 mod full_visibility;
 mod occluder_tree;
 mod occlusion;
+mod part_visibility;
 mod plane_octet;
 mod probe_segment;
 mod sample_points;
@@ -35,7 +36,8 @@ pub use faults::Faults;
 pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
-pub use sample_points::{PointOctet, Surface};
+pub use part_visibility::{PARTS, PartVisibility};
+pub use sample_points::{PointOctet, Surface, children_of_triangle};
 pub use sampling::{
     AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, sample_visibility,
 };

@@ -23,12 +23,7 @@ impl PointOctet {
     /// square, which is folded along its diagonal.
     #[inline(always)]
     pub fn of_triangle(corners: [Vec3; 3], normal: Vec3, u: &[f32; 8], v: &[f32; 8]) -> Self {
-        let (mut along, mut across) = (*u, *v);
-        for l in 0..8 {
-            let fold = u[l] + v[l] > 1.0;
-            along[l] = if fold { 1.0 - u[l] } else { u[l] };
-            across[l] = if fold { 1.0 - v[l] } else { v[l] };
-        }
+        let [along, across] = folded(u, v);
         Self::at(corners, normal, &along, &across)
     }
 
@@ -65,9 +60,39 @@ impl PointOctet {
     }
 }
 
+/// Points of the unit square, folded along its diagonal.
+#[inline(always)]
+fn folded(u: &[f32; 8], v: &[f32; 8]) -> [[f32; 8]; 2] {
+    let (mut along, mut across) = (*u, *v);
+    for l in 0..8 {
+        let fold = u[l] + v[l] > 1.0;
+        along[l] = if fold { 1.0 - u[l] } else { u[l] };
+        across[l] = if fold { 1.0 - v[l] } else { v[l] };
+    }
+    [along, across]
+}
+
+/// Which of a triangle's four children hold eight uniform points of it, numbered as patches are: those at the corners
+/// first, then the middle one.
+pub fn children_of_triangle(u: &[f32; 8], v: &[f32; 8]) -> [u8; 8] {
+    let [along, across] = folded(u, v);
+    // Without branches, which no processor could foresee.
+    std::array::from_fn(|l| {
+        let (second, third) = (u8::from(along[l] > 0.5), u8::from(across[l] > 0.5));
+        let beyond_first = u8::from(along[l] + across[l] >= 0.5);
+        second + 2 * third + 3 * (beyond_first - second - third)
+    })
+}
+
 /// An element that can be sampled: a receiver uniformly by area, a source by its light.
 pub trait Surface {
     /// The points at the first `lanes` of eight `(u, v)` in [0,1)^2; uniform in gives that out. What the other
     /// lanes hold is finite and means nothing.
     fn points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet;
+
+    /// The part of the element that holds each of these points, below [`super::PARTS`]: all in one where parts do not
+    /// matter.
+    fn parts(&self, _u: &[f32; 8], _v: &[f32; 8]) -> [u8; 8] {
+        [0; 8]
+    }
 }

@@ -13,6 +13,7 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::blockers::{BlockerList, SegmentOctet};
+use super::part_visibility::{PartVisibility, PartWeights};
 use super::sample_points::{PointOctet, Surface};
 use crate::embree::{CommittedScene, RayPacket8};
 use crate::math::SampleSequence;
@@ -96,7 +97,7 @@ impl SegmentTest for AllClear {
 pub struct SampledVisibility {
     /// What share of the unoccluded light arrives: 1 when every sample is clear, 0 when every one
     /// is blocked or none carries light.
-    pub visibility: f32,
+    pub visibility: PartVisibility,
     /// Rays cast.
     pub rays: u32,
     /// Rays blocked.
@@ -158,6 +159,7 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
         let mut total_weight = 0.0f32;
         let mut clear_weight = 0.0f32;
         let mut swallowed = false;
+        let mut parts = PartWeights::default();
         for attempt in 0..TRIES {
             let mut index = attempt * self.rays;
             let end = index + self.rays;
@@ -173,6 +175,7 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
                 for weight in trimmed.weight {
                     total_weight += weight;
                 }
+                let unhidden = trimmed.weight;
                 swallowed |= trimmed.forget(from.swallowed | to.swallowed);
                 let octet = SampleOctet {
                     segments: SegmentOctet {
@@ -193,6 +196,15 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
                         clear_weight += trimmed.weight[l];
                     }
                 }
+                // One packet that agrees needs no parts.
+                if self.rays > 8 || (clear_weight > 0.0 && (blocked != 0 || swallowed)) {
+                    parts.add(
+                        &self.receiver.parts(&s, &t),
+                        &unhidden,
+                        &trimmed.weight,
+                        blocked,
+                    );
+                }
                 index += lanes;
             }
             if total_weight > 0.0 {
@@ -203,13 +215,11 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
         result.all_clear = total_weight > 0.0 && result.rays_blocked == 0 && !swallowed;
         result.visibility = if clear_weight == 0.0 {
             // Clear or not: all that can be seen of the source is dark.
-            0.0
+            PartVisibility::even(0.0)
         } else if result.all_clear {
-            1.0
-        } else if total_weight > 0.0 {
-            clear_weight / total_weight
+            PartVisibility::CLEAR
         } else {
-            0.0
+            parts.visibility(clear_weight / total_weight)
         };
         result
     }

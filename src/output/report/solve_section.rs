@@ -83,6 +83,9 @@ struct Power {
     escaped_stderr: f64,
     unshot: f64,
     imbalance: f64,
+    /// Absent in folders of earlier versions, which left it unshot.
+    #[serde(default)]
+    extrapolated: f64,
 }
 
 /// The section of one solved folder; `picture` is a PNG.
@@ -129,7 +132,7 @@ fn energy(power: &Power) -> String {
         &[
             part("absorbed by surfaces", power.absorbed),
             part("escaped from the scene", power.escaped),
-            part("not shot when the solve stopped", power.unshot),
+            part("left out: not shot, or dropped", power.unshot),
         ],
     );
     let _ = writeln!(
@@ -139,6 +142,13 @@ fn energy(power: &Power) -> String {
         quantity(power.escaped_stderr),
         100.0 * power.imbalance
     );
+    if power.extrapolated > 0.0 {
+        let _ = writeln!(
+            out,
+            "<p>Of what arrives on surfaces, <b>{} W</b> are those of the passes that were not made: the last pass, continued as a geometric series.</p>",
+            quantity(power.extrapolated)
+        );
+    }
     out
 }
 
