@@ -33,9 +33,8 @@ pub enum Arrival {
     Linear([f32; 3]),
     /// On a flat cluster: irradiance vectors of nodes of it, to be dotted with each facet's normal.
     Vectors(NodeVectors),
-    /// On a cluster of any shape: the irradiance vector at its centroid, whose dot product with each
-    /// facet's normal counts where it is positive.
-    Field(Vec3),
+    /// On a cluster of any shape: the same, whose dot product with each facet's normal counts where it is positive.
+    Field(NodeVectors),
 }
 
 /// Irradiance vectors of nodes that make up a cluster.
@@ -60,6 +59,13 @@ impl NodeVectors {
         self.count += 1;
     }
 
+    /// Numbers of the nodes, their first facets and the vectors there, from the last on.
+    pub fn from_the_back(&self) -> impl Iterator<Item = (usize, usize, Vec3)> + '_ {
+        (0..self.count)
+            .rev()
+            .map(|k| (k, self.first_facets[k] as usize, self.vectors[k].1))
+    }
+
     /// Places in the owner's depth-first order of nodes, and the vectors there.
     pub fn iter(&self) -> impl Iterator<Item = (usize, Vec3)> + '_ {
         self.vectors[..self.count]
@@ -69,11 +75,11 @@ impl NodeVectors {
 }
 
 impl Arrival {
-    /// First facets of all parts but the first of which the light is told apart, on a flat cluster.
+    /// First facets of all parts of a cluster but the first of which the light is told apart.
     pub fn parts(&self) -> &[u32] {
         match self {
-            Self::Vectors(nodes) => &nodes.first_facets[1..nodes.count.max(1)],
-            Self::Linear(_) | Self::Field(_) => &[],
+            Self::Linear(_) => &[],
+            Self::Field(nodes) | Self::Vectors(nodes) => &nodes.first_facets[1..nodes.count.max(1)],
         }
     }
 
@@ -81,8 +87,7 @@ impl Arrival {
     pub fn is_zero(&self) -> bool {
         match self {
             Self::Linear(e) => *e == [0.0; 3],
-            Self::Field(v) => *v == Vec3::ZERO,
-            Self::Vectors(nodes) => nodes.iter().all(|(_, v)| v == Vec3::ZERO),
+            Self::Field(nodes) | Self::Vectors(nodes) => nodes.iter().all(|(_, v)| v == Vec3::ZERO),
         }
     }
 }
@@ -148,11 +153,6 @@ pub fn arrival(
             let scale = spot.map_or(1.0, |spot| spot / mean);
             (Arrival::Linear((fit * scale).to_array()), residual)
         }
-        Shape::Cluster if !flatness.receiver => {
-            let at = receiver.centroid;
-            let vector = element_vector(space, source, at, None, flatness.source);
-            (Arrival::Field(vector), 0.0)
-        }
         Shape::Cluster => {
             let levels = POINTS_OF_A_CLUSTER
                 .iter()
@@ -161,7 +161,11 @@ pub fn arrival(
             let mut nodes = NodeVectors::NONE;
             let place = (receiver.node, local as usize);
             node_vectors(space, source, place, levels, flatness.source, &mut nodes);
-            (Arrival::Vectors(nodes), 0.0)
+            let arrival = match flatness.receiver {
+                true => Arrival::Vectors(nodes),
+                false => Arrival::Field(nodes),
+            };
+            (arrival, 0.0)
         }
         Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
     }

@@ -141,7 +141,7 @@ impl<const C: usize> Task<'_, '_, C> {
     ) -> Option<PartVisibility> {
         let mut sampled = self.sample_where_cheapest(source, target, known, 0);
         self.observe(Evidence::of(&sampled));
-        if self.refines_if_partial(target.element, carried) {
+        if self.pass.oracle.refines_shadow(target.element, carried) {
             if !(sampled.all_blocked || sampled.all_clear) {
                 return None;
             }
@@ -225,11 +225,6 @@ impl<const C: usize> Task<'_, '_, C> {
         sampled
     }
 
-    /// Whether the pair would be split were its samples partly blocked.
-    fn refines_if_partial(&self, receiver: &Element, carried: f64) -> bool {
-        self.pass.oracle.refines_shadow(receiver, carried)
-    }
-
     /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
     /// technique without proofs would find none either.
     fn visible_share(&self, source: &Source, target: Target, carried: f64) -> PartVisibility {
@@ -250,7 +245,7 @@ impl<const C: usize> Task<'_, '_, C> {
         let first = self.pass.sample(AllClear, source, target, rays, 0);
         if (first.all_clear || first.all_blocked)
             && first.rays > 0
-            && self.refines_if_partial(receiver, carried)
+            && self.pass.oracle.refines_shadow(target.element, carried)
             && self.measures_again(source, receiver)
         {
             let again = self.pass.sample(AllClear, source, target, rays, 1);

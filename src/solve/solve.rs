@@ -110,7 +110,10 @@ impl<const C: usize> Solver<'_, C> {
                 .state_reached(&|| Snapshot::take(&carried, &self.light));
         }
         let extrapolated = match (self.config.stop, carried.shot.as_slice().try_into()) {
-            (Stop::Converged(_), Ok(shot)) => self.add_tail(&shot),
+            // At the cap of passes the tail would be most of the light.
+            (Stop::Converged(x), Ok(shot)) if self.share_of_emitted(mean(&unshot)) < x => {
+                self.add_tail(&shot)
+            }
             _ => 0.0,
         };
         let unshot = mean(&self.unshot_power()) + self.dropped_mean(carried.dropped);
