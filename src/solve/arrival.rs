@@ -60,7 +60,7 @@ impl NodeVectors {
     }
 
     /// Numbers of the nodes, their first facets and the vectors there, from the last on.
-    pub fn from_the_back(&self) -> impl Iterator<Item = (usize, usize, Vec3)> + '_ {
+    pub fn back_to_front(&self) -> impl Iterator<Item = (usize, usize, Vec3)> + '_ {
         (0..self.count)
             .rev()
             .map(|k| (k, self.first_facets[k] as usize, self.vectors[k].1))

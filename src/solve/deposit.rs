@@ -40,7 +40,7 @@ impl<const C: usize> Task<'_, '_, C> {
             Arrival::Field(nodes) => {
                 let owned = self.gatherer.first_facet as usize;
                 let mut end = receiver.element.facet_range().end;
-                for (part, first, vector) in nodes.from_the_back() {
+                for (part, first, vector) in nodes.back_to_front() {
                     let share = f64::from(visibility.parts[part]);
                     let light = light.map(|b| b * share);
                     for facet in first..end {
