@@ -16,9 +16,10 @@ use crate::visibility::SampledVisibility;
 use glam::Vec3;
 
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
-/// set of samples.
+/// set of samples; a packet that is not full costs less than a whole one, but its traversal at least.
 pub(super) fn packets_of_exchange(rays: u32) -> f32 {
-    1.2 * rays.div_ceil(8) as f32
+    let (begun, full) = (rays.div_ceil(8) as f32, rays as f32 / 8.0);
+    1.2 * 0.5 * (begun + full)
 }
 
 /// What a pass did.
