@@ -73,7 +73,8 @@ const MOST_WEIGHT: f64 = 1.0e3;
 const SURE: f64 = 0.999;
 /// Share of the threshold from which the receiver of a partly blocked pair is split: two levels below what BFA
 /// asks. Measured against the path-traced reference (`bench/runs/`, accuracy): in the Cornell box a quarter leaves an RMS error
-/// of 1.7 %, this 1.2 % for 1.6 times the time, a sixteenth of it 1.1 % for 5 times.
+/// of 1.7 %, this 1.2 % for 1.6 times the time, a sixteenth of it 1.1 % for 5 times. With light left part by part: a quarter 1.03 %,
+/// this 0.68 % (accuracy/parts.md).
 const PARTIAL_SHARE: f64 = 1.0 / 16.0;
 /// Share of the threshold that may ride on the form factor's assumption of an even light. Measured (`bench/runs/`,
 /// accuracy): without such a limit two-rooms is 1.1 % too dark and d 0.6 %, with it 0.7 and 0.3 %, for a tenth more time;
@@ -185,8 +186,9 @@ impl Oracle {
     }
 
     /// True when the receiver of a pair whose samples were partly blocked is to be split further than BFA asks: a
-    /// shadow's edge runs through it, and it `carried` enough. The source is not: over it visibility is averaged, by
-    /// the samples of one exchange as well as by an exchange a part.
+    /// shadow's edge runs through it, and it `carried` enough; a weaker shadow falls on its parts as the samples say
+    /// (`deposit.rs`). The source is not: over it visibility is averaged, by the samples of one exchange as well as by
+    /// an exchange a part.
     pub fn refines_shadow(&self, receiver: &Element, carried: f64) -> bool {
         carried >= PARTIAL_SHARE * self.threshold && self.can_split(receiver)
     }
