@@ -192,7 +192,8 @@ pub struct SolveArgs {
     /// Stop after N passes: 1 is direct light, 2 adds the first reflection.
     #[arg(long, value_name = "N", conflicts_with = "converge")]
     pub passes: Option<u32>,
-    /// Stop when the unshot power is below this fraction of the emitted [default: 1e-3].
+    /// Stop when the unshot power is below this fraction of the emitted; what further passes would bring is then
+    /// added, the last one continued as a geometric series [default: 1e-3].
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub converge: Option<f64>,
     /// Smallest patch, a fraction of the scene's area (one side of each surface).

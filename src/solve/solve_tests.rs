@@ -149,7 +149,7 @@ fn the_result_has_the_same_bits_at_any_number_of_threads() {
     }
     let prepared = prepare(&s);
     let config = SolveConfig {
-        stop: Stop::Passes(3),
+        stop: Stop::Converged(0.02),
         epsilon: 1.0e-4,
         ..SolveConfig::default()
     };

@@ -5,8 +5,10 @@
 //! left out bring together the last one's irradiance times r + r^2 + ... = r / (1 - r). That sum is in
 //! proportion to the power left unshot, so an error of its spread is one of a small part.
 
+use super::push_pull::sum_leaves;
 use super::radiosity::{Gatherer, Light, Shooter};
 use super::solver::{Solver, mean};
+use crate::math::FacetId;
 use rayon::prelude::*;
 
 /// Greatest ratio of two passes that is summed: beyond it rounding decides what the sum is.
@@ -23,18 +25,18 @@ impl<const C: usize> Solver<'_, C> {
         let unshot = self.unshot_power();
         let factors: Light<C> = std::array::from_fn(|c| tail_factor(shot[c], unshot[c]));
         let table = &self.table;
+        let area = |facet: FacetId| table.areas[facet.index()];
         let parts: Vec<Arrived<C>> = (self.light.gatherers.par_iter_mut())
             .zip(&mut self.light.shooters)
             .map(|(gatherer, shooter)| {
                 let mut arrived = [[0.0; C]; 2];
-                for_each_leaf(gatherer, |gatherer, facet, at, share| {
-                    let (area, reflectance) =
-                        (share * table.areas[facet], table.reflectance[facet]);
+                change_leaves(gatherer, area, |facet, at, area, total| {
+                    let reflectance = table.reflectance[facet.index()];
                     for c in (0..C).filter(|&c| reflectance[c] > 0.0) {
                         let more = irradiance(shooter, at, c, reflectance[c], factors[c]);
-                        arrived[0][c] += area * gatherer.total[at][c];
+                        arrived[0][c] += area * total[c];
                         arrived[1][c] += area * more;
-                        gatherer.total[at][c] += more;
+                        total[c] += more;
                     }
                 });
                 arrived
@@ -47,22 +49,21 @@ impl<const C: usize> Solver<'_, C> {
             true => more[c] / made[c],
             false => 0.0,
         });
-        let black: f64 = (self.light.gatherers.par_iter_mut())
+        let black: Vec<f64> = (self.light.gatherers.par_iter_mut())
             .map(|gatherer| {
                 let mut sum = 0.0;
-                for_each_leaf(gatherer, |gatherer, facet, at, share| {
-                    for c in (0..C).filter(|&c| table.reflectance[facet][c] <= 0.0) {
-                        let more = shares[c] * gatherer.total[at][c];
-                        sum += share * table.areas[facet] * more;
-                        gatherer.total[at][c] += more;
+                change_leaves(gatherer, area, |facet, _, area, total| {
+                    let reflectance = table.reflectance[facet.index()];
+                    for c in (0..C).filter(|&c| reflectance[c] <= 0.0) {
+                        let more = shares[c] * total[c];
+                        sum += area * more;
+                        total[c] += more;
                     }
                 });
                 sum / C as f64
             })
-            .collect::<Vec<f64>>()
-            .iter()
-            .sum();
-        mean(&more) + black
+            .collect();
+        mean(&more) + black.iter().sum::<f64>()
     }
 }
 
@@ -81,21 +82,17 @@ fn irradiance<const C: usize>(
     factor * f64::from(last) / reflectance
 }
 
-/// Calls `visit` for every leaf patch of an owner, with its facet, its place, and its share of the facet's area.
-fn for_each_leaf<const C: usize>(
+/// Calls `change` with every leaf of an owner: its facet, its place, its area and its irradiance of all passes.
+fn change_leaves<const C: usize>(
     gatherer: &mut Gatherer<C>,
-    mut visit: impl FnMut(&mut Gatherer<C>, usize, usize, f64),
+    facet_area: impl Fn(FacetId) -> f64,
+    mut change: impl FnMut(FacetId, usize, f64, &mut Light<C>),
 ) {
-    let mut stack = Vec::new();
-    for local in 0..gatherer.facet_count {
-        stack.push((local as usize, 1.0));
-        while let Some((at, share)) = stack.pop() {
-            match gatherer.children[at] as usize {
-                0 => visit(gatherer, (gatherer.first_facet + local) as usize, at, share),
-                first => stack.extend((first..first + 4).map(|k| (k, 0.25 * share))),
-            }
-        }
-    }
+    let mut total = std::mem::take(&mut gatherer.total);
+    sum_leaves(gatherer, facet_area, |facet, at, area| {
+        change(facet, at, area, &mut total[at]);
+    });
+    gatherer.total = total;
 }
 
 /// Sum of the powers of the ratio of two passes; 0 where they do not fall off.
