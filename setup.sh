@@ -65,10 +65,17 @@ install_packages() {
 
 # --- compilers and libclang ----------------------------------------------------------------------
 
+# Prints the libclang libraries found. libclang-cpp, the C++ library that every clang brings along, is another
+# library and does not serve bindgen.
 find_libclang() {
-    [ -z "${LIBCLANG_PATH:-}" ] || { ls "$LIBCLANG_PATH"/libclang*.so* "$LIBCLANG_PATH"; return; }
-    ls /usr/lib/llvm-*/lib/libclang.so* /usr/lib/llvm-*/lib/libclang-*.so* \
-        /usr/lib/*/libclang*.so* /usr/lib64/libclang*.so* /usr/local/lib/libclang*.so*
+    for dir in ${LIBCLANG_PATH:-/usr/lib/llvm-*/lib /usr/lib/*-linux-gnu /usr/lib64 /usr/local/lib}; do
+        for library in "$dir"/libclang.so* "$dir"/libclang-*.so* "$dir"; do
+            case "$library" in
+                */libclang-cpp*) ;;
+                *libclang*.so*) [ ! -e "$library" ] || echo "$library" ;;
+            esac
+        done
+    done
 }
 
 setup_compilers() {
@@ -76,7 +83,7 @@ setup_compilers() {
     has cc || missing="$missing gcc libc6-dev"
     # libFuzzer, which the fuzz targets link, is C++.
     has c++ || missing="$missing g++"
-    [ -n "$(find_libclang 2>/dev/null)" ] || missing="$missing libclang-dev"
+    [ -n "$(find_libclang)" ] || missing="$missing libclang-dev"
     # shellcheck disable=SC2086  # a list of words
     install_packages $missing
 }
