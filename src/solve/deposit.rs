@@ -18,7 +18,7 @@ impl<const C: usize> Task<'_, '_, C> {
         let whole = light.map(|b| b * f64::from(visibility.whole));
         match unoccluded {
             Arrival::Linear(irradiance) => {
-                let element = &receiver.element;
+                let element = receiver.element;
                 let at = self.gatherer.patch(element.facet(), element.path);
                 // A patch that no light has yet split takes its shadow as a whole: what many weak exchanges leave on
                 // it is not worth patches of their own (`bench/runs/`, accuracy).

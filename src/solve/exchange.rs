@@ -11,7 +11,9 @@ use super::pair::{Known, Receiver, Source, Target, exchange_key};
 use super::query_schedule::{Evidence, Occasion, Queries};
 use super::task::{Task, packets_of_exchange};
 use crate::math::hash_u64;
-use crate::visibility::{AllClear, LEAST_COSINE, PartVisibility, SampledVisibility, Verdict};
+use crate::visibility::{
+    AllClear, LEAST_COSINE, PartVisibility, SampledLight, SampledVisibility, Verdict,
+};
 
 /// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
 /// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
@@ -53,26 +55,26 @@ impl<const C: usize> Task<'_, '_, C> {
                 power_vectors: self.pass.power_vectors,
                 tau: context.tau,
             },
-            &source.element,
-            &receiver.element,
+            source.element,
+            receiver.element,
             receiver.local,
             Flatness {
-                source: oracle.is_flat_towards(&source.element, &receiver.element),
-                receiver: oracle.is_flat_towards(&receiver.element, &source.element),
+                source: oracle.is_flat_towards(source.element, receiver.element),
+                receiver: oracle.is_flat_towards(receiver.element, source.element),
             },
         );
         if unoccluded.is_zero() {
             return Next::Done;
         }
         if oracle.refines_source(
-            &source.element,
-            &receiver.element,
+            source.element,
+            receiver.element,
             carried,
             self.variance(source),
         ) {
             return Next::SplitSource;
         }
-        if oracle.refines_receiver(&receiver.element, greatest, residual) {
+        if oracle.refines_receiver(receiver.element, greatest, residual) {
             return Next::SplitReceiver;
         }
         let known = self.look_for_air(source, receiver, known);
@@ -95,7 +97,7 @@ impl<const C: usize> Task<'_, '_, C> {
             return Next::Done;
         }
         let target = Target {
-            element: &receiver.element,
+            element: receiver.element,
             parts: unoccluded.parts(),
         };
         let visibility = match (self.pass.config.technique, known.knowledge.verdict) {
@@ -108,7 +110,7 @@ impl<const C: usize> Task<'_, '_, C> {
             }
             (_, verdict) => {
                 if let Some(claim) = known.claim.filter(|_| self.pass.config.check_claims) {
-                    self.check(source, &receiver.element, claim);
+                    self.check(source, receiver.element, claim);
                 }
                 match verdict {
                     Verdict::Visible => {
@@ -150,7 +152,7 @@ impl<const C: usize> Task<'_, '_, C> {
             // stands for all (a control variate, so that the mean is right).
             if sampled.rays > 0 && self.measures_again(source, target.element) {
                 let again = self.sample_where_cheapest(source, target, known, 1);
-                sampled.visibility = measured(&sampled, &again);
+                sampled.visibility = measured(sampled.visibility, again.visibility);
                 sampled.all_blocked &= again.all_blocked;
                 sampled.all_clear &= again.all_clear;
                 sampled.rays_blocked += again.rays_blocked;
@@ -162,14 +164,14 @@ impl<const C: usize> Task<'_, '_, C> {
         statistics.exchanges_blocked += u64::from(blocked);
         statistics.exchanges_sampled_clear += u64::from(sampled.all_clear);
         if blocked && self.outcome.blocked.is_wanted() {
-            self.keep_blocked(&source.element, target.element);
+            self.keep_blocked(source.element, target.element);
         }
         Some(sampled.visibility)
     }
 
     /// Whether an exchange whose first samples agree casts a second set, which then counts for all the others.
     fn measures_again(&self, source: &Source, receiver: &Element) -> bool {
-        let key = exchange_key(self.pass.key.wrapping_add(2), &source.element, receiver);
+        let key = exchange_key(self.pass.key.wrapping_add(2), source.element, receiver);
         hash_u64(key).is_multiple_of(MEASURED_ONE_IN)
     }
 
@@ -228,28 +230,29 @@ impl<const C: usize> Task<'_, '_, C> {
     /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
     /// technique without proofs would find none either.
     fn visible_share(&self, source: &Source, target: Target, carried: f64) -> PartVisibility {
-        let receiver = target.element;
-        let is_open = |element: &Element| {
-            let context = self.pass.context;
-            let facet = context.hierarchy.facets[element.first_facet as usize];
-            !(element.is_triangle() && context.scene.contacts.touches(facet, &element.bounds))
-        };
-        if is_open(&source.element)
-            && is_open(receiver)
-            && source.element.faces_beyond(receiver, LEAST_COSINE)
-            && receiver.faces_beyond(&source.element, LEAST_COSINE)
-        {
+        let (from, to) = (source.element, target.element);
+        let context = self.pass.context;
+        let is_open = context.is_open(from) && context.is_open(to);
+        if is_open && from.faces_beyond(to, LEAST_COSINE) && to.faces_beyond(from, LEAST_COSINE) {
             return PartVisibility::CLEAR;
         }
         let rays = self.pass.config.rays;
-        let first = self.pass.sample(AllClear, source, target, rays, 0);
-        if (first.all_clear || first.all_blocked)
-            && first.rays > 0
-            && self.pass.oracle.refines_shadow(target.element, carried)
-            && self.measures_again(source, receiver)
-        {
-            let again = self.pass.sample(AllClear, source, target, rays, 1);
-            return measured(&first, &again);
+        let may_measure = self.pass.oracle.refines_shadow(to, carried);
+        if is_open {
+            let look = |round| self.pass.look_for_light(source, target, rays, round);
+            let share =
+                |light: SampledLight| PartVisibility::even(f32::from(u8::from(light.carries)));
+            let first = look(0);
+            if first.casts && may_measure && self.measures_again(source, to) {
+                return measured(share(first), share(look(1)));
+            }
+            return share(first);
+        }
+        let look = |round| self.pass.sample(AllClear, source, target, rays, round);
+        let first = look(0);
+        let agree = first.all_clear || first.all_blocked;
+        if agree && first.rays > 0 && may_measure && self.measures_again(source, to) {
+            return measured(first.visibility, look(1).visibility);
         }
         first.visibility
     }
@@ -298,6 +301,6 @@ impl<const C: usize> Task<'_, '_, C> {
 }
 
 /// What a second set of samples says for all whose first agree.
-fn measured(first: &SampledVisibility, again: &SampledVisibility) -> PartVisibility {
-    (first.visibility).corrected(&again.visibility, MEASURED_ONE_IN as f32)
+fn measured(first: PartVisibility, again: PartVisibility) -> PartVisibility {
+    first.corrected(&again, MEASURED_ONE_IN as f32)
 }

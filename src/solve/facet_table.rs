@@ -15,6 +15,8 @@ pub struct FacetTable<const C: usize> {
     pub normals: Vec<Vec3>,
     /// Where points on them lie.
     pub frames: Vec<FacetFrame>,
+    /// How many facets before each are touched by solids; one longer.
+    pub touched_before: Vec<u32>,
     /// Areas, normalised.
     pub areas: Vec<f64>,
     /// Sums of the areas before each facet; one longer.
@@ -46,6 +48,7 @@ impl<const C: usize> FacetTable<C> {
         let mut table = Self {
             normals: Vec::with_capacity(hierarchy.facets.len()),
             frames: Vec::new(),
+            touched_before: vec![0],
             areas: Vec::with_capacity(hierarchy.facets.len()),
             area_before: vec![0.0],
             reflectance: Vec::with_capacity(hierarchy.facets.len()),
@@ -74,6 +77,13 @@ impl<const C: usize> FacetTable<C> {
                 .push(std::array::from_fn(|k| PI * (emission[k] / unit)));
         }
         table.frames = FacetFrame::of_all(scene, hierarchy, &table.normals);
+        let mut touched = 0;
+        table
+            .touched_before
+            .extend(table.frames.iter().map(|frame| {
+                touched += u32::from(frame.is_touched);
+                touched
+            }));
         table
     }
 

@@ -9,8 +9,8 @@ use crate::visibility::Verdict;
 
 /// A source in the walk: the element, and where its unshot radiosity stands.
 #[derive(Clone, Copy)]
-pub(super) struct Source {
-    pub(super) element: Element,
+pub(super) struct Source<'e> {
+    pub(super) element: &'e Element,
     /// Owner of the facet; of use to triangles only.
     pub(super) owner: u32,
     /// Patch of the owner that holds the radiosity: itself, or the frozen leaf that it is a part of.
@@ -21,8 +21,8 @@ pub(super) struct Source {
 
 /// A receiver in the walk: the element, and a cluster's place in its owner's depth-first order.
 #[derive(Clone, Copy)]
-pub(super) struct Receiver {
-    pub(super) element: Element,
+pub(super) struct Receiver<'e> {
+    pub(super) element: &'e Element,
     pub(super) local: u32,
 }
 

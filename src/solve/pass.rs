@@ -71,6 +71,7 @@ pub fn run_pass<const C: usize>(
         node_variance,
         power_before,
         power_vectors,
+        is_even,
         owner_of_facet,
         first_facets,
     } = light;
@@ -81,6 +82,7 @@ pub fn run_pass<const C: usize>(
         node_variance,
         power_before,
         power_vectors,
+        is_even,
         owner_of_facet,
         first_facets,
         oracle: Oracle {

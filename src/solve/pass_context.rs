@@ -15,7 +15,9 @@ use crate::cluster::Hierarchy;
 use crate::embree::CommittedScene;
 use crate::math::hash_u64;
 use crate::scene::Scene;
-use crate::visibility::{SampledVisibility, SegmentTest, sample_visibility};
+use crate::visibility::{
+    SampledLight, SampledVisibility, SegmentTest, look_for_light, sample_visibility,
+};
 use glam::Vec3;
 use pulp::Arch;
 
@@ -41,6 +43,8 @@ pub struct SolveContext<'a> {
     pub normals: &'a [Vec3],
     /// Where points on each facet lie.
     pub frames: &'a [FacetFrame],
+    /// How many facets before each are touched by solids, and all at the end.
+    pub touched_before: &'a [u32],
     /// Sum of the areas of the facets before each facet, and of all at the end.
     pub area_before: &'a [f64],
     /// Area of the scene, one side of each polygon, normalised.
@@ -49,6 +53,18 @@ pub struct SolveContext<'a> {
     pub tau: f32,
     /// Who watches.
     pub observer: &'a dyn Observer,
+}
+
+impl SolveContext<'_> {
+    /// True when no solid that stands on a triangle or cluster hides any of it.
+    pub(super) fn is_open(&self, element: &Element) -> bool {
+        if element.is_triangle() {
+            let facet = self.hierarchy.facets[element.first_facet as usize];
+            return !self.scene.contacts.touches(facet, &element.bounds);
+        }
+        let range = element.facet_range();
+        self.touched_before[range.start] == self.touched_before[range.end]
+    }
 }
 
 /// What stays the same during a pass.
@@ -60,6 +76,7 @@ pub(super) struct Pass<'a, const C: usize> {
     pub(super) node_variance: &'a [f32],
     pub(super) power_before: &'a [f64],
     pub(super) power_vectors: &'a PowerVectors,
+    pub(super) is_even: &'a [bool],
     pub(super) owner_of_facet: &'a [u32],
     pub(super) first_facets: &'a [u32],
     pub(super) oracle: Oracle,
@@ -80,6 +97,43 @@ impl<const C: usize> Pass<'_, C> {
         ((hash_u64(key) >> 11) as f64) < chance * (1u64 << 53) as f64
     }
 
+    /// The two ends of a pair as surfaces to sample.
+    fn surfaces<'p>(
+        &'p self,
+        source: &Source<'p>,
+        receiver: Target<'p>,
+    ) -> (SourceSurface<'p, C>, ReceiverSurface<'p>) {
+        let context = self.context;
+        let source = SourceSurface {
+            element: source.element,
+            scene: context.scene,
+            hierarchy: context.hierarchy,
+            frames: context.frames,
+            power_before: self.power_before,
+            shooters: self.shooters,
+            is_even: self.is_even,
+            owner_of_facet: self.owner_of_facet,
+            first_facets: self.first_facets,
+            owner: source.owner,
+            slot: source.slot,
+        };
+        let receiver = ReceiverSurface {
+            element: receiver.element,
+            scene: context.scene,
+            hierarchy: context.hierarchy,
+            frames: context.frames,
+            area_before: context.area_before,
+            parts: receiver.parts,
+        };
+        (source, receiver)
+    }
+
+    /// Names the samples of a pair.
+    fn sample_key(&self, source: &Source, receiver: Target, round: u64) -> u64 {
+        let pass_key = self.key.wrapping_add(round);
+        exchange_key(pass_key, source.element, receiver.element)
+    }
+
     /// Casts the samples of a pair.
     pub(super) fn sample(
         &self,
@@ -89,38 +143,21 @@ impl<const C: usize> Pass<'_, C> {
         rays: u32,
         round: u64,
     ) -> SampledVisibility {
-        let context = self.context;
-        let key = exchange_key(
-            self.key.wrapping_add(round),
-            &source.element,
-            receiver.element,
-        );
-        sample_visibility(
-            self.arch,
-            test,
-            &SourceSurface {
-                element: &source.element,
-                scene: context.scene,
-                hierarchy: context.hierarchy,
-                frames: context.frames,
-                power_before: self.power_before,
-                shooters: self.shooters,
-                owner_of_facet: self.owner_of_facet,
-                first_facets: self.first_facets,
-                owner: source.owner,
-                slot: source.slot,
-            },
-            &ReceiverSurface {
-                element: receiver.element,
-                scene: context.scene,
-                hierarchy: context.hierarchy,
-                frames: context.frames,
-                area_before: context.area_before,
-                parts: receiver.parts,
-            },
-            rays,
-            key,
-            self.oracle.tau,
-        )
+        let (from, to) = self.surfaces(source, receiver);
+        let key = self.sample_key(source, receiver, round);
+        sample_visibility(self.arch, test, &from, &to, rays, key, self.oracle.tau)
+    }
+
+    /// Whether the samples of a pair of which nothing is hidden carry light and have something to test.
+    pub(super) fn look_for_light(
+        &self,
+        source: &Source,
+        receiver: Target,
+        rays: u32,
+        round: u64,
+    ) -> SampledLight {
+        let (from, to) = self.surfaces(source, receiver);
+        let key = self.sample_key(source, receiver, round);
+        look_for_light(self.arch, &from, &to, rays, key, self.oracle.tau)
     }
 }

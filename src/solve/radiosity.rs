@@ -100,6 +100,8 @@ pub struct Radiosity<const C: usize> {
     pub power_before: Vec<f64>,
     /// The same power of each facet, times its normal.
     pub power_vectors: PowerVectors,
+    /// Whether each facet's light is even.
+    pub is_even: Vec<bool>,
     /// The owner of each facet.
     pub owner_of_facet: Vec<u32>,
     /// The first facet of each owner.
@@ -131,6 +133,7 @@ impl<const C: usize> Radiosity<C> {
             node_variance: vec![0.0; hierarchy.nodes.len()],
             power_before: vec![0.0; hierarchy.facets.len() + 1],
             power_vectors: PowerVectors::zero(hierarchy.facets.len()),
+            is_even: vec![true; hierarchy.facets.len()],
             owner_of_facet,
             first_facets: cut
                 .iter()
@@ -148,10 +151,10 @@ impl<const C: usize> Radiosity<C> {
         self.shooters[owner].unshot[local as usize]
     }
 
-    fn facet_variance(&self, facet: FacetId) -> f32 {
+    fn facet_split(&self, facet: FacetId) -> &PatchSplit {
         let owner = self.owner_of_facet[facet.index()] as usize;
         let local = facet.0 - self.first_facets[owner];
-        self.shooters[owner].splits[local as usize].variance
+        &self.shooters[owner].splits[local as usize]
     }
 
     /// Averages the facets' unshot radiosity up the hierarchy (paper: pull). Children stand behind
@@ -180,7 +183,9 @@ impl<const C: usize> Radiosity<C> {
                 })
             };
             if node.kind == NodeKind::Facet {
-                self.node_variance[index] = self.facet_variance(FacetId(node.first_facet));
+                let split = *self.facet_split(FacetId(node.first_facet));
+                self.node_variance[index] = split.variance;
+                self.is_even[node.first_facet as usize] = split.is_even();
                 let radiosity: f32 = self.node_unshot[index].iter().sum();
                 self.power_before[node.first_facet as usize + 1] =
                     f64::from(radiosity) * f64::from(hierarchy.shapes[index].area);
@@ -205,6 +210,7 @@ impl<const C: usize> Radiosity<C> {
             .sum::<usize>()
             + self.node_unshot.len() * size_of::<[f32; C]>()
             + self.power_before.len() * size_of::<f64>()
+            + self.is_even.len()
             + self.power_vectors.bytes()
     }
 }

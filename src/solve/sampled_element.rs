@@ -10,6 +10,7 @@ use super::radiosity::Shooter;
 use crate::cluster::Hierarchy;
 use crate::scene::{Facet, Scene};
 use crate::visibility::{PointOctet, Surface, children_of_triangle};
+use std::ops::Range;
 
 /// A receiver.
 pub struct ReceiverSurface<'a> {
@@ -50,8 +51,7 @@ impl Surface for ReceiverSurface<'_> {
         if self.element.is_triangle() {
             return children_of_triangle(u, v);
         }
-        let (facets, _) = choose_facets(self.element, self.area_before, u);
-        facets.map(|facet| part_of(self.parts, facet))
+        choose_parts(&self.element.facet_range(), self.area_before, self.parts, u)
     }
 }
 
@@ -60,14 +60,11 @@ impl ReceiverSurface<'_> {
     fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet {
         let (centroid, normal) = (self.element.centroid, self.element.normal);
         let mut points = PointOctet::of_triangle([centroid; 3], normal, u, v);
-        let (facets, rests) = choose_facets(self.element, self.area_before, u);
+        let range = self.element.facet_range();
+        let (facets, rests) = choose_facets(&range, self.area_before, u, lanes);
         for l in 0..lanes as usize {
             let (frame, rest) = (&self.frames[facets[l]], rests[l]);
-            let at = match rest + v[l] > 1.0 {
-                true => [1.0 - rest, 1.0 - v[l]],
-                false => [rest, v[l]],
-            };
-            points.set(l, frame.at(at), frame.normal);
+            points.set(l, frame.at(folded([rest, v[l]])), frame.normal);
             let hidden = frame.is_touched
                 && self
                     .scene
@@ -77,14 +74,6 @@ impl ReceiverSurface<'_> {
         }
         points
     }
-}
-
-/// The part that holds a facet, by the first facets of all parts but the first.
-fn part_of(first_facets: &[u32], facet: usize) -> u8 {
-    let before = first_facets
-        .iter()
-        .filter(|&&first| first as usize <= facet);
-    before.count() as u8
 }
 
 /// A source.
@@ -101,6 +90,8 @@ pub struct SourceSurface<'a, const C: usize> {
     pub power_before: &'a [f64],
     /// What every owner's patches have to shoot.
     pub shooters: &'a [Shooter<C>],
+    /// Whether each facet's light is even.
+    pub is_even: &'a [bool],
     /// Owner of each facet.
     pub owner_of_facet: &'a [u32],
     /// First facet of each owner.
@@ -120,10 +111,7 @@ impl<const C: usize> Surface for SourceSurface<'_, C> {
             let mut points = match shooter.splits[self.slot as usize].is_even() {
                 true => PointOctet::of_triangle(corners, normal, u, v),
                 false => {
-                    let (mut along, mut across) = ([0.0; 8], [0.0; 8]);
-                    for l in 0..8 {
-                        [along[l], across[l]] = lit_point(&shooter.splits, self.slot, [u[l], v[l]]);
-                    }
+                    let [along, across] = lit_points(&shooter.splits, self.slot, u, v);
                     PointOctet::at(corners, normal, &along, &across)
                 }
             };
@@ -142,16 +130,19 @@ impl<const C: usize> SourceSurface<'_, C> {
     fn cluster_points(&self, u: &[f32; 8], v: &[f32; 8], lanes: u32) -> PointOctet {
         let (centroid, normal) = (self.element.centroid, self.element.normal);
         let mut points = PointOctet::of_triangle([centroid; 3], normal, u, v);
-        let (facets, rests) = choose_facets(self.element, self.power_before, u);
+        let range = self.element.facet_range();
+        let (facets, rests) = choose_facets(&range, self.power_before, u, lanes);
         for l in 0..lanes as usize {
             let (facet, frame) = (facets[l], &self.frames[facets[l]]);
-            let owner = self.owner_of_facet[facet];
-            let slot = facet as u32 - self.first_facets[owner as usize];
-            let at = lit_point(
-                &self.shooters[owner as usize].splits,
-                slot,
-                [rests[l], v[l]],
-            );
+            let at = match self.is_even[facet] {
+                true => folded([rests[l], v[l]]),
+                false => {
+                    let owner = self.owner_of_facet[facet];
+                    let slot = facet as u32 - self.first_facets[owner as usize];
+                    let splits = &self.shooters[owner as usize].splits;
+                    lit_point(splits, slot, [rests[l], v[l]])
+                }
+            };
             points.set(l, frame.at(at), frame.normal);
             if frame.is_touched {
                 self.hide(&mut points, l, frame.facet);
@@ -174,52 +165,130 @@ impl<const C: usize> SourceSurface<'_, C> {
     }
 }
 
-/// A point of a frozen patch: down its split with `u`, by the children's light. In coordinates along the first two
-/// edges from the patch's first corner. Every child has the patch's edges, halved, the middle one turned about.
+/// Eight points of a frozen patch that is lit unevenly: down its split with `u`, by the children's light. In coordinates
+/// along the first two edges from the patch's first corner.
 #[inline(always)]
-fn lit_point(splits: &[PatchSplit], slot: u32, [mut u, v]: [f32; 2]) -> [f32; 2] {
-    let mut split = &splits[slot as usize];
-    let (mut along, mut across, mut scale) = (0.0_f32, 0.0_f32, 1.0_f32);
-    while !split.is_even() {
-        let (which, rest) = split.choose(u);
-        u = rest;
-        let half = 0.5 * scale;
-        along += if which & 1 == 1 { half } else { 0.0 };
-        across += if which & 2 == 2 { half } else { 0.0 };
-        scale = if which == 3 { -half } else { half };
-        split = &splits[(split.first + which) as usize];
+fn lit_points(splits: &[PatchSplit], slot: u32, u: &[f32; 8], v: &[f32; 8]) -> [[f32; 8]; 2] {
+    let mut places = u.map(Place::of_patch);
+    let mut patches = [slot; 8];
+    // The first step is from the same patch for all.
+    for l in 0..8 {
+        patches[l] = places[l].descend(&splits[slot as usize]);
     }
-    let (u, v) = if u + v > 1.0 {
-        (1.0 - u, 1.0 - v)
-    } else {
-        (u, v)
-    };
-    [along + scale * u, across + scale * v]
+    for l in 0..8 {
+        while !splits[patches[l] as usize].is_even() {
+            patches[l] = places[l].descend(&splits[patches[l] as usize]);
+        }
+    }
+    let mut points = [[0.0; 8]; 2];
+    for l in 0..8 {
+        [points[0][l], points[1][l]] = places[l].point(v[l]);
+    }
+    points
 }
 
-/// Chooses eight facets of a cluster in proportion to what `before` sums, and what is left of each `u` inside its facet.
-/// The eight searches go in step, so that they wait for the memory together.
+/// One such point of a patch of any light.
 #[inline(always)]
-fn choose_facets(element: &Element, before: &[f64], u: &[f32; 8]) -> ([usize; 8], [f32; 8]) {
-    let first = element.first_facet as usize;
-    let count = element.facet_count as usize;
-    let sums = &before[first..=first + count];
-    let whole = sums[count] - sums[0];
-    let target = u.map(|u| sums[0] + f64::from(u) * whole);
-    // The last facet in front of which no more than the target lies, by halving.
-    let mut chosen = [0usize; 8];
-    let mut candidates = count;
-    while candidates > 1 {
-        let half = candidates / 2;
-        for l in 0..8 {
-            let middle = chosen[l] + half;
-            chosen[l] = if sums[middle] <= target[l] {
-                middle
-            } else {
-                chosen[l]
-            };
+fn lit_point(splits: &[PatchSplit], mut patch: u32, [u, v]: [f32; 2]) -> [f32; 2] {
+    let mut place = Place::of_patch(u);
+    while !splits[patch as usize].is_even() {
+        patch = place.descend(&splits[patch as usize]);
+    }
+    place.point(v)
+}
+
+/// Where on the way down a patch's split a point is. Every child has the patch's edges, halved, the middle one turned
+/// about.
+#[derive(Clone, Copy)]
+struct Place {
+    along: f32,
+    across: f32,
+    scale: f32,
+    /// What is left of the choice.
+    u: f32,
+}
+
+impl Place {
+    #[inline(always)]
+    fn of_patch(u: f32) -> Self {
+        Self {
+            along: 0.0,
+            across: 0.0,
+            scale: 1.0,
+            u,
         }
-        candidates -= half;
+    }
+
+    /// One step down: the child of `split` that holds the share `u` of its light.
+    #[inline(always)]
+    fn descend(&mut self, split: &PatchSplit) -> u32 {
+        let (which, rest) = split.choose(self.u);
+        self.u = rest;
+        let half = 0.5 * self.scale;
+        self.along += if which & 1 == 1 { half } else { 0.0 };
+        self.across += if which & 2 == 2 { half } else { 0.0 };
+        self.scale = if which == 3 { -half } else { half };
+        split.first + which
+    }
+
+    #[inline(always)]
+    fn point(&self, v: f32) -> [f32; 2] {
+        let [u, v] = folded([self.u, v]);
+        [self.along + self.scale * u, self.across + self.scale * v]
+    }
+}
+
+/// A point of the unit square, folded along its diagonal.
+#[inline(always)]
+fn folded([u, v]: [f32; 2]) -> [f32; 2] {
+    match u + v > 1.0 {
+        true => [1.0 - u, 1.0 - v],
+        false => [u, v],
+    }
+}
+
+/// Where in the sums of `before` over a cluster's facets each `u` in [0,1) falls.
+#[inline(always)]
+fn targets(facets: &Range<usize>, before: &[f64], u: &[f32; 8]) -> [f64; 8] {
+    let (start, end) = (before[facets.start], before[facets.end]);
+    u.map(|u| start + f64::from(u) * (end - start))
+}
+
+/// The parts that hold the facets which `choose_facets` would choose, by the first facets of all parts but the first.
+#[inline(always)]
+fn choose_parts(
+    facets: &Range<usize>,
+    before: &[f64],
+    first_facets: &[u32],
+    u: &[f32; 8],
+) -> [u8; 8] {
+    let target = targets(facets, before, u);
+    let mut parts = [0; 8];
+    for &first in first_facets {
+        let before = before[first as usize];
+        for l in 0..8 {
+            parts[l] += u8::from(before <= target[l]);
+        }
+    }
+    parts
+}
+
+/// Chooses facets of a cluster for the first `lanes` of eight `u` in proportion to what `before` sums, and what is left
+/// of each `u` inside its facet; the other lanes mean nothing.
+#[inline(always)]
+fn choose_facets(
+    facets: &Range<usize>,
+    before: &[f64],
+    u: &[f32; 8],
+    lanes: u32,
+) -> ([usize; 8], [f32; 8]) {
+    let sums = &before[facets.start..=facets.end];
+    let target = targets(facets, before, u);
+    let mut chosen = [0; 8];
+    match lanes {
+        1..=2 => search::<2>(sums, &target, &mut chosen),
+        3..=4 => search::<4>(sums, &target, &mut chosen),
+        _ => search::<8>(sums, &target, &mut chosen),
     }
     let rests = std::array::from_fn(|l| {
         let share = sums[chosen[l] + 1] - sums[chosen[l]];
@@ -230,7 +299,26 @@ fn choose_facets(element: &Element, before: &[f64], u: &[f32; 8]) -> ([usize; 8]
         };
         rest.clamp(0.0, BELOW_ONE)
     });
-    (chosen.map(|facet| first + facet), rests)
+    (chosen.map(|place| facets.start + place), rests)
+}
+
+/// The last place in front of which no more than the target lies, by halving. The `N` searches go in step, so that they
+/// wait for the memory together.
+#[inline(always)]
+fn search<const N: usize>(sums: &[f64], target: &[f64; 8], chosen: &mut [usize; 8]) {
+    let mut candidates = sums.len() - 1;
+    while candidates > 1 {
+        let half = candidates / 2;
+        for l in 0..N {
+            let middle = chosen[l] + half;
+            chosen[l] = if sums[middle] <= target[l] {
+                middle
+            } else {
+                chosen[l]
+            };
+        }
+        candidates -= half;
+    }
 }
 
 #[cfg(test)]
@@ -268,11 +356,29 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_a_cluster_begin_where_they_are_said_to() {
-        assert_eq!(
-            [3, 4, 6, 7, 90].map(|facet| part_of(&[4, 7, 8], facet)),
-            [0, 1, 1, 2, 3]
-        );
-        assert_eq!(part_of(&[], 5), 0);
+    fn parts_of_a_cluster_hold_the_facets_that_are_chosen() {
+        // Some facets without area, as after rounding.
+        let areas = [0.5, 0.0, 1.0, 3.0, 0.25, 0.0, 0.0, 2.0, 1.0, 0.125];
+        let mut before = vec![0.0_f64; 5];
+        for area in areas {
+            before.push(before[before.len() - 1] + area);
+        }
+        let range = 4..4 + areas.len();
+        let first_facets = [6, 8, 9, 12];
+        for index in (0..512).step_by(8) {
+            let [u, ..] = SampleSequence::new(3).points(index);
+            let parts = choose_parts(&range, &before, &first_facets, &u);
+            for lanes in [1, 2, 3, 4, 5, 8] {
+                let (facets, rests) = choose_facets(&range, &before, &u, lanes);
+                for l in 0..lanes as usize {
+                    let (facet, area) = (facets[l], before[facets[l] + 1] - before[facets[l]]);
+                    let place = before[facet] + f64::from(rests[l]) * area;
+                    let target = f64::from(u[l]) * before[before.len() - 1];
+                    assert!((place - target).abs() < 1.0e-6 && area > 0.0);
+                    let met = first_facets.iter().filter(|&&f| f as usize <= facet);
+                    assert_eq!(usize::from(parts[l]), met.count());
+                }
+            }
+        }
     }
 }

@@ -117,6 +117,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             flux_tree: &self.flux_tree,
             normals: &self.table.normals,
             frames: &self.table.frames,
+            touched_before: &self.table.touched_before,
             area_before: &self.table.area_before,
             polygon_area: self.table.polygon_area,
             tau: self.scene.tau(),

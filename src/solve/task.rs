@@ -76,7 +76,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         }
     }
 
-    pub(super) fn source_of_node(&self, id: NodeId) -> Source {
+    pub(super) fn source_of_node(&self, id: NodeId) -> Source<'a> {
         let context = &self.pass.context;
         let node = context.hierarchy.node(id);
         let (owner, slot) = if node.kind == NodeKind::Facet {
@@ -89,7 +89,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             (0, 0)
         };
         Source {
-            element: context.elements[id.index()],
+            element: &context.elements[id.index()],
             owner,
             slot,
             weight: 1.0,
@@ -127,9 +127,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         known: Known,
     ) -> Known {
         match &self.prover {
-            Some(prover)
-                if prover.finds_air(&source.element, &receiver.element, known.knowledge) =>
-            {
+            Some(prover) if prover.finds_air(source.element, receiver.element, known.knowledge) => {
                 self.outcome.statistics.visible_claims += 1;
                 Known {
                     knowledge: known.knowledge.visible(),
@@ -151,7 +149,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         let Some(prover) = &mut self.prover else {
             return known;
         };
-        let (from, to, pass) = (&source.element, &receiver.element, self.pass);
+        let (from, to, pass) = (source.element, receiver.element, self.pass);
         let (queries, occasion) = prover.plan_before_split(from, to, known.knowledge, || {
             pass.oracle.expected_exchanges(from, to, greatest)
                 * packets_of_exchange(pass.config.rays)
@@ -172,8 +170,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             return known;
         };
         let proof: Proof = prover.ask(
-            &source.element,
-            &receiver.element,
+            source.element,
+            receiver.element,
             known.knowledge,
             queries,
             occasion,
@@ -199,7 +197,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             occluder,
         };
         if self.outcome.claims.is_wanted() {
-            let key = exchange_key(self.pass.key, &source.element, &receiver.element);
+            let key = exchange_key(self.pass.key, source.element, receiver.element);
             self.outcome.claims.offer(key, claim);
         }
         claim

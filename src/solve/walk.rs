@@ -27,7 +27,7 @@ impl<const C: usize> Task<'_, '_, C> {
     pub(super) fn run(mut self, owner: usize) -> TaskOutcome {
         let source = self.source_of_node(Hierarchy::ROOT);
         let receiver = Receiver {
-            element: self.pass.context.elements[self.gatherer.root.index()],
+            element: &self.pass.context.elements[self.gatherer.root.index()],
             local: 0,
         };
         let greatest = self.greatest(&source);
@@ -47,7 +47,7 @@ impl<const C: usize> Task<'_, '_, C> {
         let decision =
             self.pass
                 .oracle
-                .decide(&source.element, &receiver.element, greatest, source.weight);
+                .decide(source.element, receiver.element, greatest, source.weight);
         match decision {
             Decision::Nothing => {}
             Decision::Play { power, .. }
@@ -57,7 +57,7 @@ impl<const C: usize> Task<'_, '_, C> {
                 self.outcome.dropped += power;
             }
             Decision::Play { chance, .. } => {
-                if self.pass.wins(&source.element, &receiver.element, chance) {
+                if self.pass.wins(source.element, receiver.element, chance) {
                     let mut source = *source;
                     source.weight /= chance;
                     self.walk(&source, receiver, greatest / chance, known);
@@ -113,8 +113,9 @@ impl<const C: usize> Task<'_, '_, C> {
             let first =
                 self.pass.shooters[source.owner as usize].splits[source.slot as usize].first;
             for which in 0..4 {
+                let element = source.element.triangle_child(corners, which);
                 let child = Source {
-                    element: source.element.triangle_child(corners, which),
+                    element: &element,
                     owner: source.owner,
                     // Below a frozen leaf the source is split virtually: the leaf's radiosity serves.
                     slot: if first == 0 {
@@ -149,8 +150,9 @@ impl<const C: usize> Task<'_, '_, C> {
         let context = self.pass.context;
         if let Shape::Triangle(corners) = receiver.element.shape {
             for which in 0..4 {
+                let element = receiver.element.triangle_child(corners, which);
                 let child = Receiver {
-                    element: receiver.element.triangle_child(corners, which),
+                    element: &element,
                     local: 0,
                 };
                 self.walk(source, &child, greatest, known);
@@ -159,7 +161,7 @@ impl<const C: usize> Task<'_, '_, C> {
             let locals = local_children(context.hierarchy, children[0], receiver.local as usize);
             for (child, local) in children.into_iter().zip(locals) {
                 let child = Receiver {
-                    element: context.elements[child.index()],
+                    element: &context.elements[child.index()],
                     local: local as u32,
                 };
                 self.walk(source, &child, greatest, known);

@@ -39,7 +39,8 @@ pub use occlusion::OccluderFaces;
 pub use part_visibility::{PARTS, PartVisibility};
 pub use sample_points::{PointOctet, Surface, children_of_triangle};
 pub use sampling::{
-    AllClear, LEAST_COSINE, SampleOctet, SampledVisibility, SegmentTest, sample_visibility,
+    AllClear, LEAST_COSINE, SampleOctet, SampledLight, SampledVisibility, SegmentTest,
+    look_for_light, sample_visibility,
 };
 pub use scene_tree::SceneTree;
 pub use survivors::SurvivorList;

@@ -225,6 +225,78 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
     }
 }
 
+/// What [`look_for_light`] found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SampledLight {
+    /// True when some sample carries light.
+    pub carries: bool,
+    /// True when something is left of some sample to be tested.
+    pub casts: bool,
+}
+
+/// What [`sample_visibility`] would say with [`AllClear`] of elements of which nothing is hidden, at less cost: most
+/// often the first sample tells.
+pub fn look_for_light(
+    arch: Arch,
+    source: &impl Surface,
+    receiver: &impl Surface,
+    rays: u32,
+    key: u64,
+    tau: f32,
+) -> SampledLight {
+    arch.dispatch(LightSearch {
+        source,
+        receiver,
+        rays,
+        key,
+        tau,
+    })
+}
+
+/// One exchange whose samples are looked at.
+struct LightSearch<'a, S, R> {
+    source: &'a S,
+    receiver: &'a R,
+    rays: u32,
+    key: u64,
+    tau: f32,
+}
+
+impl<S: Surface, R: Surface> WithSimd for LightSearch<'_, S, R> {
+    type Output = SampledLight;
+
+    #[inline(always)]
+    fn with_simd<I: Simd>(self, _: I) -> SampledLight {
+        let sequence = SampleSequence::new(self.key);
+        let mut found = SampledLight::default();
+        for attempt in 0..TRIES {
+            let mut index = attempt * self.rays;
+            let end = index + self.rays;
+            // One sample, then eight at a time.
+            let mut lanes = 1;
+            while index < end {
+                let [u, v, s, t] = sequence.points(index);
+                let (from, to) = (
+                    self.source.points(&u, &v, lanes),
+                    self.receiver.points(&s, &t, lanes),
+                );
+                let trimmed = trim(&from, &to, self.tau, lanes);
+                found.carries |= trimmed.weight.iter().any(|&weight| weight > 0.0);
+                found.casts |= trimmed.active != 0;
+                if found.casts {
+                    return found;
+                }
+                index += lanes;
+                lanes = (end - index).min(8);
+            }
+            if found.carries {
+                break;
+            }
+        }
+        found
+    }
+}
+
 /// Eight sample segments, trimmed at both ends.
 struct Trimmed {
     near: [f32; 8],
