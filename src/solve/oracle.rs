@@ -159,10 +159,14 @@ impl Oracle {
     /// Whether a pair that carries `power`, `weight` times its own, is played for. The stake is a share of the
     /// threshold, but no more than may fall on the receiver at once: small receivers would become speckled.
     fn play(&self, share: f64, receiver: &Element, power: f64, weight: f64) -> Option<Decision> {
-        let most = self.played_irradiance * f64::from(receiver.area);
-        let stake = (share * self.threshold).min(self.played_power).min(most);
-        let chance = (power / stake).max(weight / MOST_WEIGHT);
+        let chance = (power / self.stake(share, receiver.area)).max(weight / MOST_WEIGHT);
         (chance < SURE).then_some(Decision::Play { chance, power })
+    }
+
+    /// The power from which pairs with a receiver of this area are not played for.
+    fn stake(&self, share: f64, area: f32) -> f64 {
+        let most = self.played_irradiance * f64::from(area);
+        (share * self.threshold).min(self.played_power).min(most)
     }
 
     /// True when a pair that carries so little may be left out for good, as long as its owner's budget lasts.
@@ -171,12 +175,15 @@ impl Oracle {
     }
 
     /// About how many exchanges lie below a pair: each carries up to the threshold, and clusters that are too
-    /// near or too bent to exchange have to be taken apart, whatever they carry.
+    /// near or too bent to exchange have to be taken apart, whatever they carry; but of weak parts only those exchange
+    /// that win their lots.
     pub fn expected_exchanges(&self, source: &Element, receiver: &Element, radiosity: f64) -> f32 {
         let power = radiosity * f64::from(source.area * oracle_form_factor(source, receiver));
         let gap = source.bounds.distance(receiver.bounds);
-        let parts = parts_at(source, gap) * parts_at(receiver, gap);
-        ((power / self.threshold) as f32).max(parts)
+        let receivers = parts_at(receiver, gap);
+        let parts = parts_at(source, gap) * receivers;
+        let won = power / self.stake(EXCHANGE_STAKE, receiver.area / receivers);
+        (power / self.threshold).max(won.min(f64::from(parts))) as f32
     }
 
     /// True when an exchange would leave too coarse a light on its receiver: `residual` is how far the
