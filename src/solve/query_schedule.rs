@@ -256,9 +256,10 @@ impl QuerySchedule {
     }
 }
 
-/// Which power of four.
+/// Which power of four: half of the binary exponent.
 fn size(packets: f32) -> usize {
-    ((0.5 * packets.max(1.0).log2()) as usize).min(SIZES - 1)
+    let exponent = (packets.max(1.0).to_bits() >> (f32::MANTISSA_DIGITS - 1)) as usize;
+    ((exponent + 1 - f32::MAX_EXP as usize) / 2).min(SIZES - 1)
 }
 
 #[cfg(test)]

@@ -360,3 +360,52 @@ fn trim(from: &PointOctet, to: &PointOctet, tau: f32, lanes: u32) -> Trimmed {
     trimmed.active = counts.iter().sum::<u32>() as u8;
     trimmed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangle with nothing on it.
+    struct Open([Vec3; 3]);
+
+    impl Surface for Open {
+        fn points(&self, u: &[f32; 8], v: &[f32; 8], _: u32) -> PointOctet {
+            let Self([a, b, c]) = *self;
+            let normal = (b - a).cross(c - a).normalize();
+            PointOctet::of_triangle([a, b, c], normal, u, v)
+        }
+    }
+
+    #[test]
+    fn looking_for_light_finds_what_clear_samples_find() {
+        let sequence = SampleSequence::new(11);
+        let triangle = |index: u32, size: f32| {
+            Open(std::array::from_fn(|corner| {
+                let [x, y, z, _] = sequence.point(3 * index + corner as u32);
+                size * Vec3::new(x, y, z)
+            }))
+        };
+        // Triangles that straddle each other's planes; where tau is large, samples that carry light cast no ray.
+        let (mut dark, mut partly, mut lit) = (0, 0, 0);
+        for index in 0..2000 {
+            let (from, to) = (triangle(2 * index, 1.0), triangle(2 * index + 1, 0.3));
+            for (rays, tau) in [(1, 1.0e-6), (3, 0.05), (8, 1.0e-6), (8, 0.3), (20, 0.05)] {
+                let (arch, key) = (Arch::new(), u64::from(index));
+                let clear = sample_visibility(arch, AllClear, &from, &to, rays, key, tau);
+                let found = look_for_light(arch, &from, &to, rays, key, tau);
+                assert_eq!(clear.all_clear, clear.visibility == PartVisibility::CLEAR);
+                assert_eq!(found.carries, clear.all_clear, "{index} {rays} {tau}");
+                assert_eq!(found.casts, clear.rays > 0, "{index} {rays} {tau}");
+                match (found.carries, found.casts) {
+                    (false, _) => dark += 1,
+                    (true, false) => partly += 1,
+                    (true, true) => lit += 1,
+                }
+            }
+        }
+        assert!(
+            dark > 100 && partly > 100 && lit > 100,
+            "{dark} {partly} {lit}"
+        );
+    }
+}
