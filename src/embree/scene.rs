@@ -80,7 +80,7 @@ impl CommittedScene {
         self.occluded8_with(rays, active, sys::RTCRayQueryFlags::COHERENT)
     }
 
-    /// As [`Self::occluded8`], for rays that have nothing to do with each other.
+    /// As [`Self::occluded8`], for rays that have nothing to do with each other, or are few.
     #[inline]
     pub fn occluded8_incoherent(&self, rays: &mut RayPacket8, active: u8) -> u8 {
         self.occluded8_with(rays, active, sys::RTCRayQueryFlags::INCOHERENT)

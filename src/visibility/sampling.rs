@@ -70,9 +70,17 @@ impl SegmentTest for &CommittedScene {
                 direction[lane] = segments.to[axis][lane] - segments.from[axis][lane];
             }
         }
-        self.occluded8(&mut packet, active)
+        if active.count_ones() <= FEW_RAYS {
+            self.occluded8_incoherent(&mut packet, active)
+        } else {
+            self.occluded8(&mut packet, active)
+        }
     }
 }
+
+/// Rays of a packet up to which Embree answers them faster one by one: in half to nine tenths of the time (`bench/runs/`,
+/// embree_packets).
+const FEW_RAYS: u32 = 3;
 
 /// A short list's answer, natively.
 impl SegmentTest for &BlockerList {
