@@ -59,8 +59,9 @@ fn missing_name(keyword: &str) -> Reason {
     Reason::MissingName(keyword.into())
 }
 
-fn no_emitter(missing: &[&str]) -> Reason {
+fn no_emitter(names_library: bool, missing: &[&str]) -> Reason {
     Reason::NoEmitter {
+        names_library,
         missing_libraries: missing.iter().map(|&m| m.into()).collect(),
     }
 }
@@ -174,10 +175,11 @@ fn expectations() -> Vec<Case> {
             "missing_names.obj",
             vec![(1, missing_name("mtllib")), (2, missing_name("usemtl"))],
         ),
-        obj("no_emitter.obj", vec![(0, no_emitter(&[]))]),
+        obj("no_library.obj", vec![(0, no_emitter(false, &[]))]),
+        obj("no_emitter.obj", vec![(0, no_emitter(true, &[]))]),
         obj(
             "missing_library.obj",
-            vec![(0, no_emitter(&["nowhere.mtl"]))],
+            vec![(0, no_emitter(true, &["nowhere.mtl"]))],
         ),
         obj(
             "emitter_without_area.obj",
@@ -251,7 +253,7 @@ fn expectations() -> Vec<Case> {
                 (3, not_finite("nan")),
                 (6, index("vertex", 9, 3)),
                 (8, arity("f", CORNERS, 2)),
-                (0, no_emitter(&[])),
+                (0, no_emitter(true, &[])),
             ],
             vec![("white.mtl", 2, too_white())],
         ),
@@ -319,6 +321,11 @@ fn messages_say_where_and_what_to_do() {
         "missing_library.obj: nothing emits light (the material library nowhere.mtl could not be \
          read): give the material of at least one face an emitted radiance, for example \
          `Ke 10 10 10`, in the MTL file"
+    );
+    assert_eq!(
+        text("no_library.obj"),
+        "no_library.obj: nothing emits light (the file names no material library, as `mtllib NAME.mtl` would): give the \
+         material of at least one face an emitted radiance, for example `Ke 10 10 10`, in the MTL file"
     );
     assert!(text("everything_at_once.obj").lines().count() == 5);
 }

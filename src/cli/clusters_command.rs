@@ -2,6 +2,7 @@
 
 use super::args::ClustersCommand;
 use super::error::CliError;
+use super::render::check_mesh_name;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use crate::output::write_cluster_ply;
@@ -9,6 +10,7 @@ use crate::solve::SolveConfig;
 
 /// Writes the clusters where the hierarchy is cut at `--count` nodes.
 pub fn run(session: &Session, command: &ClustersCommand) -> Result<(), CliError> {
+    check_mesh_name(&command.out, "ply")?;
     let scene = load_scene(&command.scene)?;
     let prepared = prepare(scene, &command.scene.reading, SolveConfig::default().seed)?;
     let shown = write_cluster_ply(

@@ -2,6 +2,7 @@
 
 use super::args::OccludersCommand;
 use super::error::CliError;
+use super::render::check_mesh_name;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use crate::occluder::extract_occluders;
@@ -11,6 +12,7 @@ use std::time::Instant;
 
 /// Extracts the occluders and writes them.
 pub fn run(session: &Session, command: &OccludersCommand) -> Result<(), CliError> {
+    check_mesh_name(&command.out, "obj")?;
     let scene = load_scene(&command.scene)?;
     let config = command.occluders.config();
     let prepared = prepare(scene, &command.scene.reading, SolveConfig::default().seed)?;

@@ -40,8 +40,7 @@ impl PictureFormat {
     /// # Errors
     /// [`CliError::Argument`] for any other ending.
     pub fn of(path: &Path) -> Result<Self, CliError> {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-        match extension.as_deref() {
+        match ending(path).as_deref() {
             Some("exr") => Ok(Self::Exr),
             Some("png") => Ok(Self::Png),
             _ => Err(CliError::Argument(format!(
@@ -50,6 +49,26 @@ impl PictureFormat {
             ))),
         }
     }
+}
+
+/// What follows the last dot of a name, in lower case.
+fn ending(path: &Path) -> Option<String> {
+    path.extension().map(|e| e.to_string_lossy().to_lowercase())
+}
+
+/// Refuses a name for a mesh of another format than is written.
+///
+/// # Errors
+/// [`CliError::Argument`] for any other ending than `format`.
+pub fn check_mesh_name(path: &Path, format: &str) -> Result<(), CliError> {
+    if ending(path).as_deref() == Some(format) {
+        return Ok(());
+    }
+    Err(CliError::Argument(format!(
+        "--out {}: a {} file is written, whose name ends in .{format}",
+        path.display(),
+        format.to_uppercase()
+    )))
 }
 
 /// Writes a picture by the ending of its name; a PNG `stops` brighter than its automatic exposure.

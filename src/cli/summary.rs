@@ -39,6 +39,12 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         share(power.unshot),
         100.0 * power.imbalance
     ));
+    if power.extrapolated > 0.0 {
+        tell(format_args!(
+            "of what is absorbed, {:.3} % of the emitted power is that of passes not made: the last one, continued as a geometric series",
+            share(power.extrapolated)
+        ));
+    }
     if let Some(scales) = &stats.row_scales {
         let least = scales.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = scales.iter().copied().fold(0.0, f64::max);

@@ -118,11 +118,13 @@ pub enum Reason {
     #[error(
         "nothing emits light{}: give the material of at least one face an emitted radiance, \
          for example `Ke 10 10 10`, in the MTL file",
-        library_note(.missing_libraries)
+        library_note(*.names_library, .missing_libraries)
     )]
     NoEmitter {
         /// Material libraries that the file names but that could not be read.
         missing_libraries: Vec<String>,
+        /// Whether it names any.
+        names_library: bool,
     },
     /// Emitting faces existed but all were dropped.
     #[error(
@@ -272,8 +274,10 @@ fn texture_note(texture: &Option<String>) -> String {
         .map_or_else(String::new, |t| format!(" (with texture `{t}`)"))
 }
 
-fn library_note(missing: &[String]) -> String {
-    if missing.is_empty() {
+fn library_note(names_library: bool, missing: &[String]) -> String {
+    if !names_library {
+        " (the file names no material library, as `mtllib NAME.mtl` would)".into()
+    } else if missing.is_empty() {
         String::new()
     } else {
         format!(

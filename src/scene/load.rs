@@ -127,13 +127,20 @@ fn load(
     };
     let surfaces = assign_surfaces(&canvas, assets, config, &mut defects, &mut warnings);
     if surfaces.list.iter().all(|s| s.emission == [0.0; 3]) {
-        let missing_libraries = materials.missing_libraries;
+        let Materials {
+            missing_libraries,
+            names_library,
+            ..
+        } = materials;
         let lost = |face: &&u32| {
             let material = scan.face_material[**face as usize].unwrap_or(last);
             emits(&materials.list[material as usize])
         };
         let reason = match pieces.dropped_faces.iter().filter(lost).count() {
-            0 => Reason::NoEmitter { missing_libraries },
+            0 => Reason::NoEmitter {
+                missing_libraries,
+                names_library,
+            },
             count => Reason::EmittersDropped(count),
         };
         DefectLog::new(name, &mut defects).add(None, reason);
@@ -239,8 +246,11 @@ fn check_emitter(materials: &Materials, used: &[bool], name: &str, defects: &mut
     // Where a `Ke` was refused, its own defect says what is wrong.
     let refused = |m: &RawMaterial| m.ke.is_none() && m.ke_line != m.line;
     if !in_use.any(|(material, _)| emits(material) || refused(material)) {
-        let missing_libraries = materials.missing_libraries.clone();
-        DefectLog::new(name, defects).add(None, Reason::NoEmitter { missing_libraries });
+        let reason = Reason::NoEmitter {
+            missing_libraries: materials.missing_libraries.clone(),
+            names_library: materials.names_library,
+        };
+        DefectLog::new(name, defects).add(None, reason);
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Materials {
     pub list: Vec<RawMaterial>,
     /// Libraries that could not be read.
     pub missing_libraries: Vec<String>,
+    /// Whether the file names any.
+    pub names_library: bool,
 }
 
 /// Reads the libraries that the file names and finds each of its materials in them. Defects of
@@ -84,6 +86,7 @@ pub(super) fn resolve_materials(
     Materials {
         list,
         missing_libraries,
+        names_library: !scan.libraries.is_empty(),
     }
 }
 

@@ -51,6 +51,8 @@ fn what_cannot_be_parsed_ends_with_two() {
         "view results",
         "clusters room.obj",
         "clusters room.obj --out c.ply --count 0",
+        "clusters room.obj --out c.png",
+        "occluders room.obj --out o.ply",
     ] {
         let run = folder.line(line);
         run.ends_with(2, line);
