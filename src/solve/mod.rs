@@ -15,6 +15,7 @@ mod element_vector;
 mod element_vector_tests;
 mod error;
 mod exchange;
+mod facet_choice;
 mod facet_frame;
 mod facet_table;
 #[cfg(test)]

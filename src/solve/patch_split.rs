@@ -85,6 +85,93 @@ pub fn relative_variance<const N: usize>(
     }
 }
 
+/// Eight points of a frozen patch that is lit unevenly: down its split with `u`, by the children's light. In coordinates
+/// along the first two edges from the patch's first corner.
+#[inline(always)]
+pub(super) fn lit_points(
+    splits: &[PatchSplit],
+    slot: u32,
+    u: &[f32; 8],
+    v: &[f32; 8],
+) -> [[f32; 8]; 2] {
+    let mut places = u.map(Place::of_patch);
+    let mut patches = [slot; 8];
+    // The first step is from the same patch for all.
+    for l in 0..8 {
+        patches[l] = places[l].descend(&splits[slot as usize]);
+    }
+    for l in 0..8 {
+        while !splits[patches[l] as usize].is_even() {
+            patches[l] = places[l].descend(&splits[patches[l] as usize]);
+        }
+    }
+    let mut points = [[0.0; 8]; 2];
+    for l in 0..8 {
+        [points[0][l], points[1][l]] = places[l].point(v[l]);
+    }
+    points
+}
+
+/// One such point of a patch of any light.
+#[inline(always)]
+pub(super) fn lit_point(splits: &[PatchSplit], mut patch: u32, [u, v]: [f32; 2]) -> [f32; 2] {
+    let mut place = Place::of_patch(u);
+    while !splits[patch as usize].is_even() {
+        patch = place.descend(&splits[patch as usize]);
+    }
+    place.point(v)
+}
+
+/// Where on the way down a patch's split a point is. Every child has the patch's edges, halved, the middle one turned
+/// about.
+#[derive(Clone, Copy)]
+struct Place {
+    along: f32,
+    across: f32,
+    scale: f32,
+    /// What is left of the choice.
+    u: f32,
+}
+
+impl Place {
+    #[inline(always)]
+    fn of_patch(u: f32) -> Self {
+        Self {
+            along: 0.0,
+            across: 0.0,
+            scale: 1.0,
+            u,
+        }
+    }
+
+    /// One step down: the child of `split` that holds the share `u` of its light.
+    #[inline(always)]
+    fn descend(&mut self, split: &PatchSplit) -> u32 {
+        let (which, rest) = split.choose(self.u);
+        self.u = rest;
+        let half = 0.5 * self.scale;
+        self.along += if which & 1 == 1 { half } else { 0.0 };
+        self.across += if which & 2 == 2 { half } else { 0.0 };
+        self.scale = if which == 3 { -half } else { half };
+        split.first + which
+    }
+
+    #[inline(always)]
+    fn point(&self, v: f32) -> [f32; 2] {
+        let [u, v] = folded([self.u, v]);
+        [self.along + self.scale * u, self.across + self.scale * v]
+    }
+}
+
+/// A point of the unit square, folded along its diagonal.
+#[inline(always)]
+pub(super) fn folded([u, v]: [f32; 2]) -> [f32; 2] {
+    match u + v > 1.0 {
+        true => [1.0 - u, 1.0 - v],
+        false => [u, v],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

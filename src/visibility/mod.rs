@@ -8,6 +8,7 @@ mod empty_boxes;
 pub mod exact;
 mod faults;
 mod full_visibility;
+mod light_search;
 mod occluder_tree;
 mod occlusion;
 mod part_visibility;
@@ -24,6 +25,7 @@ mod solid_tree;
 mod stored_polygon;
 mod survivors;
 mod tolerance;
+mod trimmed;
 mod verdict;
 mod wide_corners;
 mod wide_tree;
@@ -34,17 +36,16 @@ pub use bounds::{BoundsShape, ElementBounds};
 pub use empty_boxes::{EmptyBoxes, NearbyBoxes};
 pub use faults::Faults;
 pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
+pub use light_search::{SampledLight, look_for_light};
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
 pub use part_visibility::{PARTS, PartVisibility};
 pub use sample_points::{PointOctet, Surface, children_of_triangle};
-pub use sampling::{
-    AllClear, LEAST_COSINE, SampleOctet, SampledLight, SampledVisibility, SegmentTest,
-    look_for_light, sample_visibility,
-};
+pub use sampling::{AllClear, SampleOctet, SampledVisibility, SegmentTest, sample_visibility};
 pub use scene_tree::SceneTree;
 pub use survivors::SurvivorList;
 pub use tolerance::Tolerance;
+pub use trimmed::LEAST_COSINE;
 pub use verdict::Verdict;
 pub use wide_tree::WideTreeDefect;
 

@@ -14,7 +14,8 @@
 
 use super::blockers::{BlockerList, SegmentOctet};
 use super::part_visibility::{PartVisibility, PartWeights};
-use super::sample_points::{PointOctet, Surface};
+use super::sample_points::Surface;
+use super::trimmed::trim;
 use crate::embree::{CommittedScene, RayPacket8};
 use crate::math::SampleSequence;
 use glam::Vec3;
@@ -118,11 +119,7 @@ pub struct SampledVisibility {
 
 /// How often an exchange whose samples all have a zero kernel is sampled afresh: elements that
 /// straddle each other's planes; after this many tries the light is below 1 in 4 x rays samples.
-const TRIES: u32 = 4;
-
-/// Least cosine at either end for a sample to carry light. A flatter ray is trimmed by more than a thousand tau, far
-/// enough to slip under a wall's edge; what it would carry is a millionth of a hemisphere.
-pub const LEAST_COSINE: f32 = 1.0e-3;
+pub(super) const TRIES: u32 = 4;
 
 /// Samples the visibility between two elements with `rays` rays; `test` says which are blocked.
 ///
@@ -230,190 +227,5 @@ impl<T: SegmentTest, S: Surface, R: Surface> WithSimd for Sampling<'_, T, S, R> 
             parts.visibility(clear_weight / total_weight)
         };
         result
-    }
-}
-
-/// What [`look_for_light`] found.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SampledLight {
-    /// True when some sample carries light.
-    pub carries: bool,
-    /// True when something is left of some sample to be tested.
-    pub casts: bool,
-}
-
-/// What [`sample_visibility`] would say with [`AllClear`] of elements of which nothing is hidden, at less cost: most
-/// often the first sample tells.
-pub fn look_for_light(
-    arch: Arch,
-    source: &impl Surface,
-    receiver: &impl Surface,
-    rays: u32,
-    key: u64,
-    tau: f32,
-) -> SampledLight {
-    arch.dispatch(LightSearch {
-        source,
-        receiver,
-        rays,
-        key,
-        tau,
-    })
-}
-
-/// One exchange whose samples are looked at.
-struct LightSearch<'a, S, R> {
-    source: &'a S,
-    receiver: &'a R,
-    rays: u32,
-    key: u64,
-    tau: f32,
-}
-
-impl<S: Surface, R: Surface> WithSimd for LightSearch<'_, S, R> {
-    type Output = SampledLight;
-
-    #[inline(always)]
-    fn with_simd<I: Simd>(self, _: I) -> SampledLight {
-        let sequence = SampleSequence::new(self.key);
-        let mut found = SampledLight::default();
-        for attempt in 0..TRIES {
-            let mut index = attempt * self.rays;
-            let end = index + self.rays;
-            // One sample, then eight at a time.
-            let mut lanes = 1;
-            while index < end {
-                let [u, v, s, t] = sequence.points(index);
-                let (from, to) = (
-                    self.source.points(&u, &v, lanes),
-                    self.receiver.points(&s, &t, lanes),
-                );
-                let trimmed = trim(&from, &to, self.tau, lanes);
-                found.carries |= trimmed.weight.iter().any(|&weight| weight > 0.0);
-                found.casts |= trimmed.active != 0;
-                if found.casts {
-                    return found;
-                }
-                index += lanes;
-                lanes = (end - index).min(8);
-            }
-            if found.carries {
-                break;
-            }
-        }
-        found
-    }
-}
-
-/// Eight sample segments, trimmed at both ends.
-struct Trimmed {
-    near: [f32; 8],
-    far: [f32; 8],
-    /// The kernel cos cos / r^2 (up to a factor), 0 where no light is carried.
-    weight: [f32; 8],
-    /// Lanes with something left to test.
-    active: u8,
-}
-
-impl Trimmed {
-    /// Takes the light of `lanes` away; true where they carried some.
-    #[inline(always)]
-    fn forget(&mut self, lanes: u8) -> bool {
-        let mut carried = false;
-        if lanes != 0 {
-            for l in 0..8 {
-                if lanes & (1 << l) != 0 {
-                    carried |= self.weight[l] > 0.0;
-                    self.weight[l] = 0.0;
-                }
-            }
-            self.active &= !lanes;
-        }
-        carried
-    }
-}
-
-/// The rays from `from` (parameter 0) to `to` (parameter 1) in the first `lanes` lanes.
-#[inline(always)]
-fn trim(from: &PointOctet, to: &PointOctet, tau: f32, lanes: u32) -> Trimmed {
-    let mut trimmed = Trimmed {
-        near: [0.0; 8],
-        far: [-1.0; 8],
-        weight: [0.0; 8],
-        active: 0,
-    };
-    let (mut depth_from, mut depth_to, mut r2) = ([0.0f32; 8], [0.0f32; 8], [0.0f32; 8]);
-    for axis in 0..3 {
-        for l in 0..8 {
-            let along = to.position[axis][l] - from.position[axis][l];
-            // Depths of each end over the other's plane: distance times cosine.
-            depth_from[l] += from.normal[axis][l] * along;
-            depth_to[l] -= to.normal[axis][l] * along;
-            r2[l] += along * along;
-        }
-    }
-    let mut counts = [0u32; 8];
-    for l in 0..8 {
-        let least = LEAST_COSINE * r2[l].sqrt();
-        let carries = (depth_from[l] > least) & (depth_to[l] > least) & ((l as u32) < lanes);
-        // Both depths are positive where light is carried, so r2 is.
-        let weight = depth_from[l] * depth_to[l] / (r2[l] * r2[l]);
-        let carries = carries & (weight > 0.0) & (weight < f32::INFINITY);
-        let (near, far) = (tau / depth_from[l], 1.0 - tau / depth_to[l]);
-        trimmed.weight[l] = if carries { weight } else { 0.0 };
-        trimmed.near[l] = if carries { near } else { 0.0 };
-        trimmed.far[l] = if carries { far } else { -1.0 };
-        counts[l] = u32::from(carries & (near < far)) << l;
-    }
-    trimmed.active = counts.iter().sum::<u32>() as u8;
-    trimmed
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A triangle with nothing on it.
-    struct Open([Vec3; 3]);
-
-    impl Surface for Open {
-        fn points(&self, u: &[f32; 8], v: &[f32; 8], _: u32) -> PointOctet {
-            let Self([a, b, c]) = *self;
-            let normal = (b - a).cross(c - a).normalize();
-            PointOctet::of_triangle([a, b, c], normal, u, v)
-        }
-    }
-
-    #[test]
-    fn looking_for_light_finds_what_clear_samples_find() {
-        let sequence = SampleSequence::new(11);
-        let triangle = |index: u32, size: f32| {
-            Open(std::array::from_fn(|corner| {
-                let [x, y, z, _] = sequence.point(3 * index + corner as u32);
-                size * Vec3::new(x, y, z)
-            }))
-        };
-        // Triangles that straddle each other's planes; where tau is large, samples that carry light cast no ray.
-        let (mut dark, mut partly, mut lit) = (0, 0, 0);
-        for index in 0..2000 {
-            let (from, to) = (triangle(2 * index, 1.0), triangle(2 * index + 1, 0.3));
-            for (rays, tau) in [(1, 1.0e-6), (3, 0.05), (8, 1.0e-6), (8, 0.3), (20, 0.05)] {
-                let (arch, key) = (Arch::new(), u64::from(index));
-                let clear = sample_visibility(arch, AllClear, &from, &to, rays, key, tau);
-                let found = look_for_light(arch, &from, &to, rays, key, tau);
-                assert_eq!(clear.all_clear, clear.visibility == PartVisibility::CLEAR);
-                assert_eq!(found.carries, clear.all_clear, "{index} {rays} {tau}");
-                assert_eq!(found.casts, clear.rays > 0, "{index} {rays} {tau}");
-                match (found.carries, found.casts) {
-                    (false, _) => dark += 1,
-                    (true, false) => partly += 1,
-                    (true, true) => lit += 1,
-                }
-            }
-        }
-        assert!(
-            dark > 100 && partly > 100 && lit > 100,
-            "{dark} {partly} {lit}"
-        );
     }
 }
