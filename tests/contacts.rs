@@ -30,7 +30,11 @@ fn front_points(scene: &Scene, per_edge: u32) -> Vec<(DVec3, PolygonId, bool)> {
                 );
                 let point = a + (b - a) * u + (c - a) * v;
                 let hidden = scene.contacts.is_hidden(facet, point);
-                points.push((scene.normalisation.to_file(point), polygon, hidden));
+                points.push((
+                    scene.normalisation.to_file(point.as_dvec3()),
+                    polygon,
+                    hidden,
+                ));
             }
         }
     }

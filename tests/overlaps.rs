@@ -1,7 +1,7 @@
 //! Polygons that lie on each other: who owns the area, and what finding out costs.
 
 use certilux::math::PolygonId;
-use certilux::scene::{Facet, LoadConfig, Overlaps, Scene, Side, find_overlaps, load_text};
+use certilux::scene::{Axes, Facet, LoadConfig, Overlaps, Scene, Side, find_overlaps, load_text};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -28,13 +28,10 @@ fn scene(rectangles: &[([f64; 4], f64, &str)], turn: DQuat) -> Scene {
         )
         .unwrap();
     }
-    load_text(
-        "t.obj",
-        obj.as_bytes(),
-        &[("m.mtl", MATERIALS)],
-        &LoadConfig::default(),
-    )
-    .unwrap()
+    // Along the file's axes, so that what is turned stays askew.
+    let mut load = LoadConfig::default();
+    load.axes = Axes::File;
+    load_text("t.obj", obj.as_bytes(), &[("m.mtl", MATERIALS)], &load).unwrap()
 }
 
 /// For each face after the lamp whether its front and its back are covered in all its polygons;

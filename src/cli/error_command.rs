@@ -28,6 +28,7 @@ pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
     let mesh = read_ply(&path).map_err(CliError::Solution)?;
     let load = LoadConfig {
         clamp_reflectance: true,
+        ..LoadConfig::default()
     };
     let scene = command
         .scene

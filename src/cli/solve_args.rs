@@ -2,7 +2,7 @@
 
 use super::quality::Quality;
 use crate::occluder::OccluderConfig;
-use crate::scene::{LoadConfig, SidesMode};
+use crate::scene::{Axes, LoadConfig, SidesMode};
 use crate::solve::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;
@@ -27,6 +27,10 @@ pub struct ReadingArgs {
     /// Which sides of a surface receive and reflect light.
     #[arg(long, value_enum, default_value_t = SidesArg::Auto)]
     pub sides: SidesArg,
+    /// Which axes bounding boxes run along: those of the scene's walls make a building that stands askew as cheap as
+    /// any other.
+    #[arg(long, value_enum, default_value_t = AxesArg::Scene)]
+    pub axes: AxesArg,
     /// Threads; 0 is one a processor. Results do not depend on it.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
     pub threads: usize,
@@ -47,6 +51,7 @@ impl ReadingArgs {
     pub fn load_config(&self) -> LoadConfig {
         LoadConfig {
             clamp_reflectance: self.clamp_reflectance,
+            axes: self.axes.into(),
         }
     }
 
@@ -56,6 +61,24 @@ impl ReadingArgs {
             SidesArg::Auto => SidesMode::Auto,
             SidesArg::One => SidesMode::One,
             SidesArg::Two => SidesMode::Two,
+        }
+    }
+}
+
+/// `--axes`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AxesArg {
+    /// Three perpendicular directions that most of the area faces, where they hold a quarter of it.
+    Scene,
+    /// Those of the file.
+    File,
+}
+
+impl From<AxesArg> for Axes {
+    fn from(axes: AxesArg) -> Self {
+        match axes {
+            AxesArg::Scene => Self::Scene,
+            AxesArg::File => Self::File,
         }
     }
 }

@@ -44,6 +44,7 @@ pub fn settings(command: &SolveCommand, config: &SolveConfig) -> BTreeMap<String
         ("normalise", name_of(command.solve.normalise)),
         ("stride", stride),
         ("sides", name_of(command.scene.reading.sides)),
+        ("axes", name_of(command.scene.reading.axes)),
         ("occluders", occluders.per_cluster.to_string()),
         ("occluder-size", real(occluders.min_area)),
         ("flatness", real(occluders.flatness_degrees)),
@@ -85,7 +86,7 @@ mod tests {
         let lines = [
             "",
             "--technique blockers --epsilon 3.3e-7 --gradient 0.1 --rays 24 --passes 7 --min-area 0 --seed 18446744073709551615",
-            "--normalise off --stride 4 --sides two --occluders 3 --occluder-size 0.00123 --flatness 2.5 --converge 0.017",
+            "--normalise off --stride 4 --sides two --axes file --occluders 3 --occluder-size 0.00123 --flatness 2.5 --converge 0.017",
         ];
         for line in lines {
             let words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
@@ -95,5 +96,6 @@ mod tests {
             assert_eq!(parsed(&flags).1, parsed(&words).1, "{line}");
         }
         assert_ne!(of(&[]), of(&["--sides=two".to_owned()]));
+        assert_ne!(of(&[]), of(&["--axes=file".to_owned()]));
     }
 }

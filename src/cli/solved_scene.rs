@@ -4,7 +4,7 @@ use super::args::{Cli, Command, SolveCommand};
 use super::error::CliError;
 use super::scene_source::read_scene;
 use crate::output::scene_hash;
-use crate::scene::{LoadConfig, Scene};
+use crate::scene::Scene;
 use clap::Parser;
 use serde_json::Value;
 use std::ffi::{OsStr, OsString};
@@ -44,10 +44,17 @@ impl SolvedScene {
                 OsString::from(text.ok_or_else(|| missing("scene.path"))?)
             }
         };
+        let settings = stats["settings"].as_object();
+        let settings = settings.ok_or_else(|| missing("settings"))?;
+        let command = solve_command(&source, settings).ok_or_else(|| {
+            CliError::Argument(format!(
+                "{} has settings that this version does not know",
+                path.display()
+            ))
+        })?;
         // A scene that was solved without clamping has nothing to clamp.
-        let load = LoadConfig {
-            clamp_reflectance: true,
-        };
+        let mut load = command.scene.reading.load_config();
+        load.clamp_reflectance = true;
         let scene = read_scene(&source, &load).map_err(|error| match named {
             Some(_) => error,
             None => CliError::Argument(format!(
@@ -64,15 +71,8 @@ impl SolvedScene {
                 folder.display()
             )));
         }
-        let settings = stats["settings"].as_object();
-        let settings = settings.ok_or_else(|| missing("settings"))?;
         Ok(Self {
-            command: solve_command(&source, settings).ok_or_else(|| {
-                CliError::Argument(format!(
-                    "{} has settings that this version does not know",
-                    path.display()
-                ))
-            })?,
+            command,
             seconds: stats["seconds"]["solve"].as_f64().unwrap_or(0.0),
             scene,
         })

@@ -4,6 +4,9 @@ use super::session::tell;
 use crate::output::StatsFile;
 use std::path::PathBuf;
 
+/// Angle in degrees from which on walls are said to be off the file's axes.
+const LEAST_ASKEW: f64 = 0.005;
+
 /// Prints what was done, how sure it is, and which files hold it.
 pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     let power = &stats.power;
@@ -24,6 +27,12 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         stats.scene.channels,
         stats.embree
     ));
+    if stats.scene.degrees_askew > LEAST_ASKEW {
+        tell(format_args!(
+            "its walls stand {:.2} degrees off the file's axes; boxes run along the walls",
+            stats.scene.degrees_askew
+        ));
+    }
     tell(format_args!(
         "{} pass(es), {exchanges} exchanges, {rays} rays, technique {}, {} thread(s)",
         stats.passes.len(),

@@ -72,6 +72,7 @@ impl Subject {
                 let records = read_reference(reference).map_err(CliError::Solution)?;
                 let load = LoadConfig {
                     clamp_reflectance: true,
+                    ..LoadConfig::default()
                 };
                 let scene = command.scene.as_ref();
                 let scene = scene.map(|source| read_scene(source, &load)).transpose()?;

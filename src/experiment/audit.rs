@@ -247,6 +247,6 @@ impl<'a> Auditor<'a> {
 
     fn in_file(&self, point: DVec3) -> [f64; 3] {
         let map = &self.prepared.scene.normalisation;
-        (point / map.scale + map.centre).to_array()
+        map.to_file(point).to_array()
     }
 }

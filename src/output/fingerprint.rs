@@ -97,6 +97,7 @@ pub fn scene_hash(scene: &Scene) -> HashText {
     }
     update_f64(&mut hash, &scene.normalisation.centre.to_array());
     update_f64(&mut hash, &[scene.normalisation.scale]);
+    update_f64(&mut hash, &scene.normalisation.turn.to_cols_array());
     count(&mut hash, scene.source_faces as usize);
     for face in &scene.dropped_faces {
         hash.update(face.to_le_bytes());

@@ -19,6 +19,7 @@ pub(crate) fn scene(
     let normalisation = Normalisation {
         centre: 0.5 * (least + greatest),
         scale: (-(greatest - least).max_element().log2().ceil()).exp2(),
+        turn: glam::DMat3::IDENTITY,
     };
     Scene {
         name: "fixture".to_owned(),

@@ -43,7 +43,7 @@ fn write_objects(out: &mut impl Write, scene: &Scene, set: &OccluderSet) -> io::
         writeln!(out, "# thickness {thickness:e}")?;
         writeln!(out, "o occluder_{index}_node_{}", occluder.node.0)?;
         for corner in slab.corners {
-            let p = scene.normalisation.to_file(corner);
+            let p = scene.normalisation.to_file(corner.as_dvec3());
             writeln!(
                 out,
                 "v {} {} {} {red:.3} {green:.3} {blue:.3}",
@@ -62,7 +62,7 @@ fn write_objects(out: &mut impl Write, scene: &Scene, set: &OccluderSet) -> io::
                     continue;
                 }
                 for corner in solid.face(axis, side) {
-                    let p = scene.normalisation.to_file(corner.as_vec3());
+                    let p = scene.normalisation.to_file(corner);
                     writeln!(
                         out,
                         "v {} {} {} {red:.3} {green:.3} {blue:.3}",
@@ -160,6 +160,7 @@ mod tests {
             normalisation: Normalisation {
                 centre: DVec3::new(1000.0, 0.0, 0.0),
                 scale: 0.25,
+                turn: glam::DMat3::IDENTITY,
             },
             source_faces: 0,
             dropped_faces: Vec::new(),

@@ -34,7 +34,7 @@ impl OccluderSheets {
         frame: &Frame,
         device: &Device,
     ) -> Result<Self, EmbreeError> {
-        let file = |p: Vec3| frame.point(scene.normalisation.to_file(p));
+        let file = |p: Vec3| frame.point(scene.normalisation.to_file(p.as_dvec3()));
         let mut positions = Vec::with_capacity(4 * set.occluders.len());
         let mut triangles = Vec::with_capacity(2 * set.occluders.len());
         let (mut normals, mut depths) = (Vec::new(), Vec::new());
@@ -43,7 +43,7 @@ impl OccluderSheets {
             let first = positions.len() as u32;
             positions.extend(slab.corners.map(file));
             triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-            normals.push(slab.normal);
+            normals.push(scene.normalisation.direction_to_file(slab.normal));
             let through = file(slab.corners[0] + slab.normal * slab.half_thickness);
             depths.push(2.0 * (through - file(slab.corners[0])).length() + SLACK);
         }

@@ -75,6 +75,8 @@ pub struct SceneBlock {
     pub area: f64,
     /// Least and greatest corner, in the file's units.
     pub bounds: [[f64; 3]; 2],
+    /// Angle in degrees between the file's axes and those of the scene's walls, which boxes run along (`--axes`).
+    pub degrees_askew: f64,
     /// 1 where everything is grey, else 3.
     pub channels: usize,
     /// Faces left out at loading, ascending.
@@ -213,6 +215,7 @@ impl SceneBlock {
             polygons: scene.polygons.len(),
             area,
             bounds: [least.to_array(), greatest.to_array()],
+            degrees_askew: scene.normalisation.degrees_askew(),
             channels: scene.channels(),
             dropped_faces: scene.dropped_faces.clone(),
             warnings: scene.warnings.iter().map(|w| w.0.clone()).collect(),
@@ -271,7 +274,7 @@ mod tests {
         let text = fs::read_to_string(&path).unwrap();
         let mut rest = text.as_str();
         for key in "format certilux embree command seed threads technique epsilon \
-            rays_per_exchange scene path faces polygons area bounds channels dropped_faces warnings \
+            rays_per_exchange scene path faces polygons area bounds degrees_askew channels dropped_faces warnings \
             hierarchy face_clusters volume_clusters occluders leaves bytes \
             passes pass seconds exchanges exchanges_blocked exchanges_sampled_clear rays \
             rays_blocked native_rays native_rays_blocked shafts occluded_claims visible_claims \

@@ -10,4 +10,16 @@ pub const CLAMPED_REFLECTANCE: f64 = 0.999;
 pub struct LoadConfig {
     /// Lower a `Kd` of 1 or more to [`CLAMPED_REFLECTANCE`] with a warning instead of refusing it.
     pub clamp_reflectance: bool,
+    /// Which axes bounding boxes run along.
+    pub axes: Axes,
+}
+
+/// The axes that bounding boxes run along.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Axes {
+    /// The scene's own, those of its walls: what the file turns is turned back.
+    #[default]
+    Scene,
+    /// The file's.
+    File,
 }

@@ -2,21 +2,23 @@
 //! ones before have found sound.
 
 use super::assets::Assets;
-use super::config::LoadConfig;
+use super::config::{Axes, LoadConfig};
 use super::contact_search::find_contacts;
 use super::contacts::Contacts;
 use super::error::{Defect, DefectLog, LoadError, MAX_ELEMENTS, Reason};
+use super::file_box::FileBox;
 use super::material::{Materials, check_materials, describe, resolve_materials};
 use super::model::{Normalisation, Polygon, Scene, SceneWarning};
 use super::mtl_scan::RawMaterial;
 use super::normalise::normalisation_of;
 use super::obj_parse::{RawMesh, parse_obj};
 use super::obj_scan::{ObjScan, scan_obj};
+use super::orientation::own_axes;
 use super::overlap::{Overlaps, find_overlaps};
 use super::polygons::{Pieces, Tally, cut_faces};
 use super::side_graph::{SideIndex, facet_at};
 use super::surface::{Canvas, assign_surfaces};
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::io;
 use std::path::Path;
 
@@ -82,7 +84,7 @@ fn load(
 
     let refuse = |line: Option<usize>, reason| LoadError::one(name, line, reason);
     let mesh = parse_obj(std::mem::take(&mut scan.clean)).map_err(|r| refuse(None, r))?;
-    let normalisation = normalisation_of(&mesh.positions).map_err(|r| {
+    let file = FileBox::around(&mesh.positions).map_err(|r| {
         refuse(
             None,
             if is_point(&mesh) {
@@ -92,6 +94,11 @@ fn load(
             },
         )
     })?;
+    let turn = match config.axes {
+        Axes::Scene => own_axes(&mesh, file),
+        Axes::File => DMat3::IDENTITY,
+    };
+    let normalisation = normalisation_of(&mesh.positions, file, turn);
     let positions: Vec<Vec3> = mesh
         .positions
         .iter()

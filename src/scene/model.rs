@@ -1,13 +1,14 @@
 //! The validated scene: what every later stage works on.
 //!
-//! Lengths here are *normalised*: the scene is centred and scaled by a power of two so that its
+//! Lengths here are *normalised*: the scene is turned to its own axes, centred and scaled by a power of two so that its
 //! bounding box fits the unit cube around the origin (`[-1/2, 1/2]^3`). [`Normalisation`] maps
 //! back to the file's units, and `source_positions` keeps the vertices as they were read.
 
 use super::contacts::Contacts;
 use super::facet::{Facet, Side};
+use super::orientation::degrees_askew;
 use crate::math::{Aabb, PolygonId};
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 /// A triangle. Its front is the side from which the vertices run counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,24 +32,41 @@ pub struct Surface {
     pub emission: [f64; 3],
 }
 
-/// The map between the file's units and normalised units: `normalised = (read - centre) * scale`.
+/// The map between the file's units and normalised units: `normalised = turn * (read - centre) * scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Normalisation {
-    /// Centre of the file's bounding box, in the file's units.
+    /// Centre of the scene's bounding box along its own axes, in the file's units and axes.
     pub centre: DVec3,
     /// A power of two, in normalised lengths per unit of the file.
     pub scale: f64,
+    /// Rotation from the file's axes to those of the scene (`orientation.rs`).
+    pub turn: DMat3,
 }
 
 impl Normalisation {
     /// A normalised point in the file's units.
-    pub fn to_file(&self, point: Vec3) -> DVec3 {
-        point.as_dvec3() / self.scale + self.centre
+    pub fn to_file(&self, point: DVec3) -> DVec3 {
+        self.turn.transpose() * (point / self.scale) + self.centre
+    }
+
+    /// A direction in the file's axes.
+    pub fn direction_to_file(&self, direction: Vec3) -> Vec3 {
+        (self.turn.transpose() * direction.as_dvec3()).as_vec3()
+    }
+
+    /// A point in the file's units, normalised.
+    pub fn place(&self, point: DVec3) -> DVec3 {
+        self.turn * (point - self.centre) * self.scale
     }
 
     /// A point in the file's units, normalised and rounded to f32.
     pub fn to_normalised(&self, point: DVec3) -> Vec3 {
-        ((point - self.centre) * self.scale).as_vec3()
+        self.place(point).as_vec3()
+    }
+
+    /// Angle in degrees between the scene's axes and those of the file, whichever is which.
+    pub fn degrees_askew(&self) -> f64 {
+        degrees_askew(self.turn)
     }
 
     /// A normalised area in the square of the file's units.

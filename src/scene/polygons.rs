@@ -50,9 +50,7 @@ impl Tally {
 pub(super) fn cut_faces(mesh: &RawMesh, map: &Normalisation, rounded: &[Vec3]) -> Pieces {
     let welded = weld_exact(rounded);
     let vertex = |corner: u32| mesh.corners[corner as usize];
-    let exact = |corner: u32| -> DVec3 {
-        (mesh.positions[vertex(corner) as usize] - map.centre) * map.scale
-    };
+    let exact = |corner: u32| map.place(mesh.positions[vertex(corner) as usize]);
     let mut out = Pieces::default();
     let copies = copied_polygons(mesh, &welded);
     let mut triangulator = Triangulator::new();

@@ -29,6 +29,7 @@ pub fn scene(surfaces: Vec<Surface>) -> Scene {
         normalisation: Normalisation {
             centre: DVec3::ZERO,
             scale: 1.0,
+            turn: glam::DMat3::IDENTITY,
         },
         source_faces: 0,
         dropped_faces: Vec::new(),

@@ -7,7 +7,7 @@ use super::{ElementBounds, OccluderFaces, OccluderTree, OcclusionScratch, Tolera
 use crate::cluster::{ClusterConfig, build_hierarchy};
 use crate::math::{Aabb, PolygonId};
 use crate::occluder::{OccluderConfig, SlabRectangle, extract_occluders};
-use crate::scene::{Facet, LoadConfig, Scene, Side, load_text};
+use crate::scene::{Axes, Facet, LoadConfig, Scene, Side, load_text};
 use glam::{DMat3, DVec3, Vec3};
 use std::fmt::Write as _;
 
@@ -72,7 +72,12 @@ impl House {
             vertices += (CELLS + 1) * (CELLS + 1);
         }
         let library = [("house.mtl", b"newmtl light\nKe 1 1 1\n".as_slice())];
-        load_text("house", obj.as_bytes(), &library, &LoadConfig::default()).expect("a valid scene")
+        // Along the file's axes, so that what is turned stays askew.
+        let load = LoadConfig {
+            axes: Axes::File,
+            ..LoadConfig::default()
+        };
+        load_text("house", obj.as_bytes(), &library, &load).expect("a valid scene")
     }
 }
 

@@ -53,6 +53,7 @@ impl Mesh {
             normalisation: Normalisation {
                 centre: DVec3::ZERO,
                 scale: 1.0,
+                turn: glam::DMat3::IDENTITY,
             },
             source_faces: self.triangles.len() as u32,
             dropped_faces: Vec::new(),

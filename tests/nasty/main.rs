@@ -7,14 +7,20 @@ mod scene;
 use certilux::embree::DeviceConfig;
 use certilux::experiment::{AuditConfig, AuditReport, audit};
 use certilux::occluder::OccluderConfig;
-use certilux::scene::{LoadConfig, SidesMode, load_text};
+use certilux::scene::{Axes, LoadConfig, SidesMode, load_text};
 use certilux::solve::{PreparedScene, Silent, SolveConfig, Stop, Stride, Technique};
 use scene::{MTL, nasty_scene};
 
 fn audit_of(seed: u64) -> AuditReport {
     let obj = nasty_scene(seed);
     let files = [("m.mtl", MTL.as_bytes())];
-    let scene = load_text("nasty", obj.as_bytes(), &files, &LoadConfig::default())
+    let mut load = LoadConfig::default();
+    // Pairs of scenes in turn along their own axes and as they are written.
+    load.axes = match seed / 2 % 2 {
+        0 => Axes::File,
+        _ => Axes::Scene,
+    };
+    let scene = load_text("nasty", obj.as_bytes(), &files, &load)
         .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
     let mut solve = SolveConfig::default();
     solve.technique = Technique::Occlusion;

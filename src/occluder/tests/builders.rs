@@ -92,6 +92,7 @@ pub fn scene_of(triangles: &[Triangle]) -> Scene {
         normalisation: Normalisation {
             centre: DVec3::ZERO,
             scale: 1.0,
+            turn: glam::DMat3::IDENTITY,
         },
         dropped_faces: Vec::new(),
         contacts: crate::scene::Contacts::default(),
