@@ -55,6 +55,7 @@ mod sweep_plot;
 mod sweep_table;
 mod tonemap;
 mod up_axis;
+mod vertex_value;
 mod vertical;
 mod view;
 #[cfg(test)]

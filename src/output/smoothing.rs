@@ -1,7 +1,7 @@
 //! Irradiance at the vertices of patches, for smooth shading with creases kept.
 //!
 //! At every vertex the patches around it fall into groups of nearly equal normals; the group's
-//! value is the mean of its patches. A vertex on the edge of a larger patch counts for that patch
+//! value is that of its patches ([`super::vertex_value`]). A vertex on the edge of a larger patch counts for that patch
 //! too, so that both sides of the edge see the same values ([`super::mean_value`]). Irradiance is
 //! averaged and not radiosity, because it goes on smoothly where the material changes; radiosity
 //! follows from it by the patch's own reflectance.
@@ -10,15 +10,8 @@ use super::SolvedMesh;
 use super::incidence::{Incident, IncidentTable};
 use super::mean_value::{BorderValue, interpolate};
 use super::panel::Panels;
+use super::vertex_value::{CREASE_COSINE, VertexValues};
 use glam::DVec3;
-
-/// Cosine of the greatest angle between normals that are shaded as one surface: 25 degrees keeps
-/// the edges of a 12-sided column and smooths one of 16 sides.
-const CREASE_COSINE: f64 = 0.906_307_787_036_65;
-
-/// Irradiance, as a share of the brightest patch at a vertex, below which a patch is taken to be
-/// hidden: open shadows in rooms keep more than that of indirect light, gaps behind furniture do not.
-const HIDDEN: f64 = 0.05;
 
 /// Patches before it at a vertex with which a patch is compared: all of them, but for the hub of a
 /// fan of hundreds of triangles, whose neighbours stand close in the file anyway.
@@ -49,10 +42,16 @@ pub(crate) struct Smoothing {
 }
 
 impl Smoothing {
-    /// Averages the irradiance of `mesh` around the vertices of `panels`, which are its panels.
+    /// Fits the irradiance of `mesh` around the vertices of `panels`, which are its panels.
     pub fn new(mesh: &SolvedMesh, panels: &Panels) -> Self {
         let normals: Vec<DVec3> = panels.panels.iter().map(|p| panels.normal(p)).collect();
         let incidents = IncidentTable::new(panels);
+        let vertex_values = VertexValues {
+            mesh,
+            panels,
+            incidents: &incidents,
+            normals: &normals,
+        };
         let mut values = Vec::with_capacity(panels.positions.len());
         let mut corners = vec![[0u32; 3]; panels.leaves.len()];
         let mut hanging: Vec<(u32, Hanging)> = Vec::new();
@@ -72,7 +71,7 @@ impl Smoothing {
                     continue;
                 }
                 let id = values.len() as u32;
-                values.push(mean(mesh, panels, vertex, members()));
+                values.push(vertex_values.value(vertex, members()));
                 for incident in members() {
                     match incident.slot {
                         slot @ 0..3 => corners[incident.leaf as usize][slot as usize] = id,
@@ -159,62 +158,6 @@ fn group_by_normal(around: &[Incident], panels: &Panels, normals: &[DVec3], grou
             }
         }
     }
-}
-
-/// The mean irradiance of `members` at a vertex. A patch counts by its angle there and by the
-/// closeness of its middle, which is where its own value holds: so between a large patch and a
-/// small one the mean is what a straight line between their middles has at the vertex. A patch that
-/// is all but black beside its neighbours hides under or behind something; it counts little, so
-/// that its dark does not seep out from there.
-fn mean<'a>(
-    mesh: &SolvedMesh,
-    panels: &Panels,
-    vertex: usize,
-    members: impl Iterator<Item = &'a Incident> + Clone,
-) -> [f32; 3] {
-    let irradiance = |incident: &Incident| {
-        let face = &mesh.faces[incident.leaf as usize];
-        face.irradiance.map(f64::from)
-    };
-    let brightness = |e: [f64; 3]| e[0] + e[1] + e[2];
-    let brightest = (members.clone()).fold(0.0, |m: f64, i| m.max(brightness(irradiance(i))));
-    let (mut sum, mut total) = ([0.0f64; 3], 0.0);
-    for incident in members {
-        let irradiance = irradiance(incident);
-        let dimness = brightness(irradiance) / (HIDDEN * brightest);
-        // Where all is black this is not a number, whose minimum with 1 is 1.
-        let weight = closeness(panels, vertex, incident) * dimness.min(1.0);
-        if weight > 0.0 {
-            for (sum, e) in sum.iter_mut().zip(irradiance) {
-                *sum += weight * e;
-            }
-            total += weight;
-        }
-    }
-    if total == 0.0 {
-        return [0.0; 3];
-    }
-    sum.map(|s| (s / total) as f32)
-}
-
-/// Angle of a patch at a vertex over the distance of its middle; 0 where that says nothing.
-fn closeness(panels: &Panels, vertex: usize, incident: &Incident) -> f64 {
-    let here = panels.positions[vertex];
-    let corners =
-        (panels.leaves[incident.leaf as usize].corners).map(|v| panels.positions[v as usize]);
-    let angle = match incident.slot {
-        slot @ 0..3 => {
-            let slot = usize::from(slot);
-            let (a, b) = (
-                corners[(slot + 1) % 3] - here,
-                corners[(slot + 2) % 3] - here,
-            );
-            a.cross(b).length().atan2(a.dot(b))
-        }
-        _ => std::f64::consts::PI,
-    };
-    let weight = angle / ((corners[0] + corners[1] + corners[2]) / 3.0 - here).length();
-    if weight.is_finite() { weight } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -311,6 +254,56 @@ mod tests {
             })
             .count();
         assert!(darkened > 100, "{darkened}");
+    }
+
+    /// Whatever the sizes of the patches: a mean of them alone errs by up to half the slope over a patch.
+    #[test]
+    fn an_even_slope_is_kept() {
+        let mut mesh = floor_and_wall();
+        let panels = Panels::new(&mesh);
+        let slope = |p: DVec3| 3.0 + 2.0 * p.x - p.y;
+        for (face, leaf) in mesh.faces.iter_mut().zip(&panels.leaves) {
+            let [a, b, c] = leaf.corners.map(|v| panels.positions[v as usize]);
+            face.irradiance = [slope((a + b + c) / 3.0) as f32; 3];
+        }
+        let smoothing = Smoothing::new(&mesh, &panels);
+        let incidents = IncidentTable::new(&panels);
+        let inside = |x: f64| x > 0.0 && x < 1.0;
+        let (mut tried, mut uneven) = (0, 0);
+        for (i, leaf) in panels
+            .leaves
+            .iter()
+            .enumerate()
+            .filter(|(_, l)| l.panel < 2)
+        {
+            for (k, &vertex) in leaf.corners.iter().enumerate() {
+                let p = panels.positions[vertex as usize];
+                if !inside(p.x) || !inside(p.y) {
+                    continue;
+                }
+                let mut weights = [0.0; 3];
+                weights[k] = 1.0;
+                let [e, ..] = smoothing.irradiance(i, weights);
+                let around = incidents.of(vertex as usize);
+                let size = |l: u32| {
+                    let [a, b, c] =
+                        (panels.leaves[l as usize].corners).map(|v| panels.positions[v as usize]);
+                    (b - a).length().max((c - b).length()).max((a - c).length())
+                };
+                let sizes = around.iter().map(|i| size(i.leaf));
+                let (least, most) =
+                    sizes.fold((f64::INFINITY, 0.0f64), |(a, b), s| (a.min(s), b.max(s)));
+                let error = (e - slope(p)).abs() / most;
+                assert!(
+                    error < 1.0e-2,
+                    "{p}: {e} for {}, patches of {least} to {most}",
+                    slope(p)
+                );
+                tried += 1;
+                uneven += usize::from(most > 1.5 * least);
+            }
+        }
+        assert!(tried > 1000 && uneven > 500, "{tried} {uneven}");
     }
 
     #[test]

@@ -103,6 +103,12 @@ fn reflect<const C: usize>(
             let irradiance = scale * ((sum[0][c] + sum[1][c] + sum[2][c]) / 3.0).max(0.0);
             gatherer.total[at][c] += irradiance;
             shooter.unshot[at][c] = (reflectance[c] * irradiance) as f32;
+            let corners = sum.map(|corner| scale * corner[c] - irradiance);
+            let slope = gatherer.slopes[at].map(|corner| corner[c]);
+            let slope = with_slope(slope, corners, gatherer.total[at][c]);
+            for (corner, x) in gatherer.slopes[at].iter_mut().zip(slope) {
+                corner[c] = x;
+            }
         }
         shooter.splits[at] = PatchSplit::default();
         return;
@@ -120,6 +126,19 @@ fn reflect<const C: usize>(
     let parts = std::array::from_fn(|k| shooter.unshot[first + k]);
     let variance = std::array::from_fn(|k| shooter.splits[first + k].variance);
     shooter.splits[at] = PatchSplit::new(first as u32, parts, variance);
+}
+
+/// A channel of a leaf's slope with what it has gathered at its `corners` beyond its mean, lessened where the leaf's
+/// `total` would be below zero at a corner.
+fn with_slope(slope: [f32; 3], corners: [f64; 3], total: f64) -> [f32; 3] {
+    let sum: [f64; 3] = std::array::from_fn(|k| f64::from(slope[k]) + corners[k]);
+    // Where a mean below zero was cut off the corners have a mean of their own.
+    let mean = (sum[0] + sum[1] + sum[2]) / 3.0;
+    let least = sum
+        .iter()
+        .fold(f64::INFINITY, |least, &x| least.min(x - mean));
+    let share = if -least > total { total / -least } else { 1.0 };
+    sum.map(|x| (share * (x - mean)) as f32)
 }
 
 /// Corner values of child `which` of a linear function, numbered as `split_triangle` does.
@@ -196,4 +215,50 @@ pub fn gathered_power<const C: usize>(
         }
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::radiosity::{Slope, inherited};
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A child made later holds what it would hold had it been there when the light came.
+        #[test]
+        fn children_inherit_the_linear_function_of_their_parent(
+            corners in prop::array::uniform3(0.0..8.0f64),
+            which in 0..4usize,
+        ) {
+            let mean = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let slope = with_slope([0.0; 3], corners.map(|x| x - mean), mean);
+            let slope: Slope<1> = slope.map(|x| [x]);
+            let ([mean], slope) = inherited(&[mean], &slope, which);
+            let expected = split_values(&corners.map(|x| [x]), which);
+            for (slope, [expected]) in slope.into_iter().zip(expected) {
+                prop_assert!((mean + f64::from(slope[0]) - expected).abs() < 1.0e-5);
+            }
+        }
+
+        #[test]
+        fn a_slope_leaves_no_corner_below_zero_and_adds_no_light(
+            before in prop::array::uniform2(-4.0..4.0f32),
+            corners in prop::array::uniform3(-8.0..8.0f64),
+            total in 0.0..8.0f64,
+        ) {
+            let slope = with_slope([before[0], before[1], -before[0] - before[1]], corners, total);
+            let slope = slope.map(f64::from);
+            prop_assert!(slope.iter().sum::<f64>().abs() < 1.0e-5);
+            prop_assert!(slope.iter().all(|x| total + x > -1.0e-5));
+            // All of it is kept where it fits.
+            let wanted = (0..3).map(|k| f64::from([before[0], before[1], -before[0] - before[1]][k]) + corners[k]);
+            let wanted: Vec<f64> = wanted.collect();
+            let mean = wanted.iter().sum::<f64>() / 3.0;
+            if wanted.iter().all(|x| total + x - mean > 1.0e-5) {
+                for (slope, wanted) in slope.iter().zip(&wanted) {
+                    prop_assert!((slope - (wanted - mean)).abs() < 1.0e-5);
+                }
+            }
+        }
+    }
 }

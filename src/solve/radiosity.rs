@@ -15,6 +15,9 @@ use glam::DVec3;
 /// An energy in `C` channels.
 pub type Light<const C: usize> = [f64; C];
 
+/// What a linear function has at the corners of a patch more than in its middle.
+pub type Slope<const C: usize> = [[f32; C]; 3];
+
 /// What an owner's facets and patches have yet to shoot: read by every task, written between passes.
 #[derive(Clone, Debug, Default)]
 pub struct Shooter<const C: usize> {
@@ -40,6 +43,8 @@ pub struct Gatherer<const C: usize> {
     pub gathered: Vec<[Light<C>; 3]>,
     /// Irradiance of all passes so far; of use at the leaves.
     pub total: Vec<Light<C>>,
+    /// How that varies over each patch: what patches made later start from. Nowhere below zero.
+    pub slopes: Vec<Slope<C>>,
     /// Irradiance vectors gathered in this pass by clusters, by place in the owner's depth-first
     /// order of nodes; empty where the owner is one facet.
     pub vectors: Vec<[DVec3; C]>,
@@ -56,6 +61,7 @@ impl<const C: usize> Gatherer<C> {
             children: vec![0; facets],
             gathered: vec![[[0.0; C]; 3]; facets],
             total: vec![[0.0; C]; facets],
+            slopes: vec![[[0.0; C]; 3]; facets],
             vectors: if facets > 1 {
                 vec![[DVec3::ZERO; C]; 2 * facets - 1]
             } else {
@@ -65,23 +71,41 @@ impl<const C: usize> Gatherer<C> {
     }
 
     /// The patch at `path` of a facet, made with all above it if it is not there yet. New patches
-    /// start with their parent's irradiance of earlier passes.
+    /// start with what their parent's irradiance of earlier passes is on them.
     pub fn patch(&mut self, facet: FacetId, path: PatchPath) -> usize {
         let mut at = (facet.0 - self.first_facet) as usize;
         for step in path.steps() {
             if self.children[at] == 0 {
                 self.children[at] = u32::try_from(self.children.len())
                     .expect("an owner has fewer than 2^32 patches");
-                let inherited = self.total[at];
-                for _ in 0..4 {
+                let (total, slope) = (self.total[at], self.slopes[at]);
+                for which in 0..4 {
                     self.children.push(0);
                     self.gathered.push([[0.0; C]; 3]);
-                    self.total.push(inherited);
+                    let (mean, slope) = inherited(&total, &slope, which);
+                    self.total.push(mean);
+                    self.slopes.push(slope);
                 }
             }
             at = (self.children[at] + step) as usize;
         }
         at
+    }
+}
+
+/// Mean and slope on child `which`, numbered as `split_triangle` does, of what has these on its parent: the middle of a corner's
+/// child lies half as far out as the corner, the child in the middle is turned about.
+pub(super) fn inherited<const C: usize>(
+    mean: &Light<C>,
+    slope: &Slope<C>,
+    which: usize,
+) -> (Light<C>, Slope<C>) {
+    match slope.get(which) {
+        Some(corner) => (
+            std::array::from_fn(|c| (mean[c] + 0.5 * f64::from(corner[c])).max(0.0)),
+            slope.map(|corner| corner.map(|x| 0.5 * x)),
+        ),
+        None => (*mean, slope.map(|corner| corner.map(|x| -0.5 * x))),
     }
 }
 
@@ -203,7 +227,8 @@ impl<const C: usize> Radiosity<C> {
         let per_patch = size_of::<u32>()
             + size_of::<PatchSplit>()
             + size_of::<[f32; C]>()
-            + 4 * size_of::<Light<C>>();
+            + 4 * size_of::<Light<C>>()
+            + size_of::<Slope<C>>();
         self.gatherers
             .iter()
             .map(|g| g.children.len() * per_patch + g.vectors.len() * size_of::<[DVec3; C]>())

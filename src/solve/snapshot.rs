@@ -1,7 +1,7 @@
 //! The state of a solve between two passes, as bytes: what the next pass reads, and nothing that can be
 //! built again from the scene.
 //!
-//! That is the patches made so far, their irradiance and what they have yet to shoot, the statistics of the
+//! That is the patches made so far, their irradiance, how it varies over them, and what they have yet to shoot, the statistics of the
 //! passes, the power dropped and the scales of row normalisation. What stands above the patches, and how a patch's
 //! light is spread over its children, is pulled anew, as at the end of every pass; the schedule of queries learns
 //! within one pass and is not carried over.
@@ -11,7 +11,7 @@
 //! (u32 each) and its arrays.
 
 use super::patch_split::PatchSplit;
-use super::radiosity::{Gatherer, Light, Radiosity, Shooter};
+use super::radiosity::{Gatherer, Light, Radiosity, Shooter, Slope};
 use super::solution::PatchPath;
 use super::statistics::PassStatistics;
 use crate::cluster::Hierarchy;
@@ -45,7 +45,7 @@ impl Snapshot {
     /// Saves the state between two passes: nothing is gathered that has not been pushed.
     pub fn take<const C: usize>(carried: &Carried, light: &Radiosity<C>) -> Self {
         let patches: usize = light.gatherers.iter().map(|g| g.children.len()).sum();
-        let per_patch = size_of::<u32>() + size_of::<Light<C>>() + size_of::<[f32; C]>();
+        let per_patch = bytes_of_a_patch::<C>();
         let mut out = Writer(Vec::with_capacity(
             patches * per_patch + light.gatherers.len() * 8 + carried.passes.len() * 128 + 64,
         ));
@@ -64,6 +64,7 @@ impl Snapshot {
             out.u32(gatherer.children.len() as u32);
             gatherer.children.iter().for_each(|&c| out.u32(c));
             gatherer.total.iter().flatten().for_each(|&e| out.f64(e));
+            (gatherer.slopes.iter().flatten().flatten()).for_each(|e| out.bytes(&e.to_le_bytes()));
             (shooter.unshot.iter().flatten()).for_each(|b| out.bytes(&b.to_le_bytes()));
         }
         Self { bytes: out.0 }
@@ -116,10 +117,16 @@ fn wrong(what: impl Into<String>) -> SnapshotError {
     SnapshotError(what.into())
 }
 
+/// Bytes that a patch takes.
+const fn bytes_of_a_patch<const C: usize>() -> usize {
+    size_of::<u32>() + size_of::<Light<C>>() + size_of::<Slope<C>>() + size_of::<[f32; C]>()
+}
+
 /// One owner's arrays.
 struct Owner<const C: usize> {
     children: Vec<u32>,
     total: Vec<Light<C>>,
+    slopes: Vec<Slope<C>>,
     unshot: Vec<[f32; C]>,
 }
 
@@ -127,6 +134,7 @@ impl<const C: usize> Owner<C> {
     fn move_into(self, gatherer: &mut Gatherer<C>, shooter: &mut Shooter<C>) {
         gatherer.gathered = vec![[[0.0; C]; 3]; self.children.len()];
         gatherer.total = self.total;
+        gatherer.slopes = self.slopes;
         // Children stand behind their parents, so one walk from the back serves.
         let mut splits = vec![PatchSplit::default(); self.children.len()];
         for at in (0..self.children.len()).rev() {
@@ -166,7 +174,7 @@ fn read_owner<const C: usize>(
 ) -> Result<Owner<C>, SnapshotError> {
     let patches = input.u32()? as usize;
     // Checked before anything is reserved: a number must not cost memory that no file fills.
-    let per_patch = size_of::<u32>() + size_of::<Light<C>>() + size_of::<[f32; C]>();
+    let per_patch = bytes_of_a_patch::<C>();
     if patches < facets || patches.saturating_mul(per_patch) > input.0.len() {
         return Err(wrong(format!("{patches} patches on {facets} facets")));
     }
@@ -178,6 +186,10 @@ fn read_owner<const C: usize>(
     for value in total.iter_mut().flatten() {
         *value = input.finite()?;
     }
+    let mut slopes = vec![[[0.0; C]; 3]; patches];
+    for value in slopes.iter_mut().flatten().flatten() {
+        *value = input.finite_f32()?;
+    }
     let mut unshot = vec![[0.0; C]; patches];
     for value in unshot.iter_mut().flatten() {
         *value = input.finite_f32()?;
@@ -185,6 +197,7 @@ fn read_owner<const C: usize>(
     Ok(Owner {
         children,
         total,
+        slopes,
         unshot,
     })
 }
