@@ -116,7 +116,11 @@ impl SolidSearch<'_> {
                 ],
                 covered: [[false; 2]; 3],
             };
-            for axis in 0..3 {
+            // The sides first: without any, the rectangle and what is across from it hide nothing together.
+            for axis in [1, 2, 0] {
+                if axis == 0 && solid.covered == [[false; 2]; 3] {
+                    break;
+                }
                 for (i, side) in [-1.0, 1.0].into_iter().enumerate() {
                     solid.covered[axis][i] = self.covers(&solid, axis, side);
                 }
