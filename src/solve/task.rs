@@ -146,7 +146,8 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         known: Known,
     ) -> Known {
         let known = self.look_for_air(source, receiver, known);
-        let Some(prover) = &mut self.prover else {
+        // A pair that has been played for is worth about one exchange: no proof saves its cost.
+        let Some(prover) = self.prover.as_mut().filter(|_| source.weight <= 1.0) else {
             return known;
         };
         let (from, to, pass) = (source.element, receiver.element, self.pass);
