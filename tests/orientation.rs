@@ -207,3 +207,35 @@ fn a_tilted_table_does_not_tilt_the_room() {
         assert!(off <= STEP, "{p} is {off:e} off a wall");
     }
 }
+
+/// A hall whose floor is level and whose long walls lean apart: what is exact decides, not what roughly agrees.
+#[test]
+fn leaning_walls_do_not_tilt_a_level_floor() {
+    for lean in [2.0e-5, 3.0e-4, 9.0e-4] {
+        let mut all = block(DVec3::ZERO, DVec3::new(6.0, 2.0, 4.0), DQuat::IDENTITY);
+        // All but the two long walls.
+        all.truncate(4);
+        for (z, sense) in [(-4.0, 1.0), (4.0, -0.6)] {
+            let up = DVec3::new(0.0, 4.0, 4.0 * lean * sense);
+            all.push([DVec3::new(-6.0, -2.0, z), DVec3::new(12.0, 0.0, 0.0), up]);
+        }
+        let turn = load(&sheets(&all), MTL, Axes::Scene).normalisation.turn;
+        let entries = turn.to_cols_array();
+        assert!(
+            entries.iter().all(|x| [0.0, 1.0].contains(&x.abs())),
+            "{lean}: {turn}"
+        );
+    }
+}
+
+#[test]
+fn what_is_hardly_askew_is_turned_too() {
+    let text = generate("two-rooms").expect("a built-in scene");
+    let as_is = load(&text.obj, &text.mtl, Axes::Scene);
+    for angle in [1.0e-7, 9.0e-7, 1.0e-5, 5.0e-4] {
+        let turn = DQuat::from_axis_angle(DVec3::new(0.48, 0.6, 0.64), angle);
+        let there = load(&mapped(&text.obj, |p| turn * p), &text.mtl, Axes::Scene);
+        let apart = apart(&as_is, &there);
+        assert!(apart <= STEP, "{angle:e}: {apart:e}");
+    }
+}

@@ -289,7 +289,9 @@ mod tests {
                 0..8 => matches!(problem, CheckpointProblem::NotACheckpoint),
                 8..12 => matches!(
                     problem,
-                    CheckpointProblem::Newer { .. } | CheckpointProblem::Damaged(_)
+                    CheckpointProblem::Newer { .. }
+                        | CheckpointProblem::Older { .. }
+                        | CheckpointProblem::Damaged(_)
                 ),
                 _ => matches!(problem, CheckpointProblem::Damaged(_)),
             };

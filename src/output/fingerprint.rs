@@ -75,7 +75,7 @@ impl Fingerprint {
     }
 }
 
-/// Hash of what a scene consists of: vertices as read, triangles, colours, and the map to normalised units.
+/// Hash of what a scene consists of: vertices as read, triangles and colours. What is made of them is a matter of settings.
 pub fn scene_hash(scene: &Scene) -> HashText {
     let mut hash = Sha256::new();
     let count = |hash: &mut Sha256, n: usize| hash.update((n as u64).to_le_bytes());
@@ -95,9 +95,6 @@ pub fn scene_hash(scene: &Scene) -> HashText {
         update_f64(&mut hash, &surface.reflectance);
         update_f64(&mut hash, &surface.emission);
     }
-    update_f64(&mut hash, &scene.normalisation.centre.to_array());
-    update_f64(&mut hash, &[scene.normalisation.scale]);
-    update_f64(&mut hash, &scene.normalisation.turn.to_cols_array());
     count(&mut hash, scene.source_faces as usize);
     for face in &scene.dropped_faces {
         hash.update(face.to_le_bytes());

@@ -94,7 +94,13 @@ const UNLIT: SolvedPatch = SolvedPatch {
 
 /// Area of a triangle.
 pub(crate) fn triangle_area([a, b, c]: [DVec3; 3]) -> f64 {
-    0.5 * (b - a).cross(c - a).length()
+    let (u, v) = (b - a, c - a);
+    // In units of its size: the length of a cross product takes fourth powers, which leave the range of f64 far sooner.
+    let size = u.abs().max(v.abs()).max_element();
+    match size > 0.0 {
+        true => 0.5 * (u / size).cross(v / size).length() * size * size,
+        false => 0.0,
+    }
 }
 
 /// A mesh under construction, with the vertices found so far.

@@ -20,6 +20,9 @@ const HIDDEN: f64 = 0.05;
 /// What is added to the spread of the middles, as a share of it: across a strip that is one patch wide the slope is unknown.
 const RIDGE: f64 = 1.0e-3;
 
+/// Patches that meet at a vertex, from which on its ring is left out: the hub of a fan, which every vertex of the rim would walk.
+const MOST_AROUND: usize = 64;
+
 /// What values at vertices are made of.
 pub(super) struct VertexValues<'a> {
     pub mesh: &'a SolvedMesh,
@@ -80,7 +83,9 @@ impl VertexValues<'_> {
             let leaf = &self.panels.leaves[member.leaf as usize];
             leaf.corners
                 .into_iter()
-                .flat_map(|corner| self.incidents.of(corner as usize))
+                .map(|corner| self.incidents.of(corner as usize))
+                .filter(|ring| ring.len() <= MOST_AROUND)
+                .flatten()
         });
         let wide = around
             .filter(|i| self.normal(i.leaf).dot(normal) >= CREASE_COSINE)

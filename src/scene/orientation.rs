@@ -3,11 +3,13 @@
 //!
 //! Bounding boxes fit walls that run along the axes. A building whose walls do not, as it is placed on a site, is turned until they
 //! do: its light then costs what it costs any other building, and depends on which way the file turns it by no more than
-//! rounding.
+//! rounding. Where a scene is so symmetric that rounding or the file's order decides between two frames (two equal wings, a cube), another
+//! turn may pick the other one: as much light, by other samples.
 
 use super::file_box::FileBox;
 use super::obj_parse::RawMesh;
 use glam::{DMat3, DVec3};
+use std::cmp::Reverse;
 use std::collections::HashMap;
 
 /// Sine of the angle within which faces look the same way at first.
@@ -16,8 +18,11 @@ const NEAR: f64 = 1.0 / 1024.0;
 /// By how much that angle is narrowed in each step of [`refined`].
 const NARROWER: f64 = 0.25;
 
-/// How often it is narrowed: to about 1.5e-5, what six digits leave of the direction of a wall.
-const STEPS: usize = 3;
+/// How often it is narrowed at most: to about 1e-9.
+const STEPS: usize = 10;
+
+/// Sine within which faces count for the frame in the end: about what six digits leave of the direction of a wall.
+const CLOSE: f64 = NEAR / 64.0;
 
 /// Directions that are tried, those of the most area.
 const CANDIDATES: usize = 16;
@@ -28,11 +33,11 @@ const FRAMES: usize = 8;
 /// Least share of the area that has to face along a frame's axes.
 const LEAST_SHARE: f64 = 0.25;
 
-/// The file's axes are kept where what faces along them exactly is this share of the best.
+/// The file's axes are kept where what faces along them exactly is this share of what faces closely along those found.
 const AS_GOOD: f64 = 0.999;
 
 /// Sine of the angle that counts as exact.
-const EXACT: f64 = 1.0e-6;
+const EXACT: f64 = 1.0e-8;
 
 /// Differences below this share do not decide between axes or their senses.
 const TIE: f64 = 1.0e-6;
@@ -45,7 +50,7 @@ struct Facing {
 }
 
 /// The rotation from the file's axes to the scene's own. Axes are ordered by the area that faces along them, each towards the side where more area lies:
-/// neither depends on how the file turns the scene. The identity where no three directions hold a quarter of the area.
+/// but for ties, neither depends on how the file turns the scene. The identity where no three directions hold a quarter of the area.
 ///
 /// Where the own axes are the file's in another order, the rotation is exact (entries 0, 1 and -1).
 pub(super) fn own_axes(mesh: &RawMesh, file: FileBox) -> DMat3 {
@@ -54,18 +59,22 @@ pub(super) fn own_axes(mesh: &RawMesh, file: FileBox) -> DMat3 {
     let Some((axes, score)) = best_frame(&facings) else {
         return DMat3::IDENTITY;
     };
-    let as_read = [DVec3::X, DVec3::Y, DVec3::Z];
-    let exactly: f64 = as_read
-        .iter()
-        .map(|&a| area_along(&facings, a, EXACT))
-        .sum();
     if score < LEAST_SHARE * total {
         return DMat3::IDENTITY;
     }
-    let axes = if exactly >= AS_GOOD * score {
-        as_read
-    } else {
-        nearest_first(perpendicular(axes.map(|axis| refined(&facings, axis))))
+    let along = |axes: &[DVec3; 3], sine| -> f64 {
+        axes.iter()
+            .map(|&axis| area_along(&facings, axis, sine))
+            .sum()
+    };
+    let found = perpendicular(best_first(
+        axes.map(|axis| refined(&facings, axis)),
+        &facings,
+    ));
+    let as_read = [DVec3::X, DVec3::Y, DVec3::Z];
+    let axes = match along(&as_read, EXACT) >= AS_GOOD * along(&found, CLOSE) {
+        true => as_read,
+        false => nearest_first(found),
     };
     let [x, y, z] = ordered(axes, &facings, total);
     DMat3::from_cols(x, y, z).transpose()
@@ -160,6 +169,12 @@ fn refined(facings: &[Facing], mut axis: DVec3) -> DVec3 {
         sine *= NARROWER;
     }
     axis
+}
+
+/// Axes by the area that faces closely along them, the greatest first: that one is kept exactly.
+fn best_first(mut axes: [DVec3; 3], facings: &[Facing]) -> [DVec3; 3] {
+    axes.sort_by_cached_key(|&axis| Reverse(area_along(facings, axis, CLOSE).to_bits()));
+    axes
 }
 
 /// Makes nearly perpendicular axes perpendicular; the first is kept.

@@ -48,8 +48,8 @@ fn coloured() -> Surface {
 fn config(technique: Technique) -> SolveConfig {
     SolveConfig {
         technique,
-        epsilon: 2.0e-3,
-        gradient: 0.05,
+        epsilon: 5.0e-4,
+        gradient: 0.01,
         stop: Stop::Passes(3),
         normalise: Normalise::On,
         ..SolveConfig::default()
