@@ -151,22 +151,26 @@ impl<'a> Prover<'a> {
             && self.boxes.hold(source.bounds, receiver.bounds)
     }
 
-    /// What to ask about a pair that is about to be split. `expected` is how many packets of eight rays are likely to be
+    /// What to ask about a pair that is about to be split; `is_played` if it has won a lot. `expected` is how many packets of eight rays are likely to be
     /// cast below it; worked out only where the answer hangs on it.
     pub fn plan_before_split(
         &mut self,
         source: &Element,
         receiver: &Element,
         knowledge: Knowledge,
+        is_played: bool,
         expected: impl FnOnce() -> f32,
     ) -> (Queries, Occasion) {
         let never = (Queries::None, Occasion::Split(0.0));
         let is_due = knowledge.verdict == Verdict::Unknown
             && match self.stride {
                 Stride::Every(levels) => knowledge.level.is_multiple_of(levels),
-                // Boxes that meet are rarely parted by one plane, and each is in the other's way.
+                // A pair that has been played for is worth about one exchange, which is no query's price. Boxes that meet
+                // are rarely parted by one plane, and each is in the other's way.
                 Stride::Auto => {
-                    self.schedule.may_ask() && source.bounds.distance(receiver.bounds) > 0.0
+                    !is_played
+                        && self.schedule.may_ask()
+                        && source.bounds.distance(receiver.bounds) > 0.0
                 }
             };
         // A pair that shares surface has neither a plane between its ends nor an empty shaft.

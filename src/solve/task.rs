@@ -146,15 +146,16 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         known: Known,
     ) -> Known {
         let known = self.look_for_air(source, receiver, known);
-        // A pair that has been played for is worth about one exchange: no proof saves its cost.
-        let Some(prover) = self.prover.as_mut().filter(|_| source.weight <= 1.0) else {
+        let Some(prover) = &mut self.prover else {
             return known;
         };
         let (from, to, pass) = (source.element, receiver.element, self.pass);
-        let (queries, occasion) = prover.plan_before_split(from, to, known.knowledge, || {
-            pass.oracle.expected_exchanges(from, to, greatest)
-                * packets_of_exchange(pass.config.rays)
-        });
+        let is_played = source.weight > 1.0;
+        let (queries, occasion) =
+            prover.plan_before_split(from, to, known.knowledge, is_played, || {
+                pass.oracle.expected_exchanges(from, to, greatest)
+                    * packets_of_exchange(pass.config.rays)
+            });
         self.prove(source, receiver, known, queries, occasion)
     }
 
