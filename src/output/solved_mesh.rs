@@ -143,3 +143,27 @@ impl Builder<'_> {
             })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The range of sizes that the loader takes: 1e-100 to 1e100.
+    #[test]
+    fn areas_of_triangles_of_any_size_are_finite_and_right() {
+        for size in [1e-99, 1e-60, 1.0, 1e60, 1e99] {
+            let corners = [
+                DVec3::ONE,
+                DVec3::new(4.0, 1.0, 1.0),
+                DVec3::new(1.0, 1.0, -3.0),
+            ];
+            let area = triangle_area(corners.map(|p| p * size));
+            let expected = 6.0 * size * size;
+            assert!(
+                (area - expected).abs() <= 1e-12 * expected,
+                "{size:e}: {area:e}"
+            );
+        }
+        assert_eq!(triangle_area([DVec3::ONE; 3]), 0.0);
+    }
+}
