@@ -41,7 +41,7 @@ impl<const C: usize> Task<'_, '_, C> {
         receiver: &Receiver,
         greatest: f64,
         carried: f64,
-        known: Known,
+        known: &Known,
     ) -> Next {
         let context = self.pass.context;
         let oracle = self.pass.oracle;
@@ -77,16 +77,17 @@ impl<const C: usize> Task<'_, '_, C> {
         if oracle.refines_receiver(receiver.element, greatest, residual) {
             return Next::SplitReceiver;
         }
-        let known = self.look_for_air(source, receiver, known);
+        let mut known = *known;
+        self.look_for_air(source, receiver, &mut known);
         let packets = packets_of_exchange(self.pass.config.rays);
         let queries = match &mut self.prover {
             Some(prover) => prover.plan_before_exchange(known.knowledge, packets),
             None => Queries::None,
         };
-        let known = self.prove(
+        self.prove(
             source,
             receiver,
-            known,
+            &mut known,
             queries,
             Occasion::Exchange(packets),
         );

@@ -26,10 +26,11 @@ pub enum Decision {
     },
     /// Exchange energy at this level: the power that it carries, greatest channel.
     Exchange(f64),
-    /// Replace the source by its children.
-    SplitSource,
-    /// Replace the receiver by its children.
-    SplitReceiver,
+    /// Replace the source by its children. The pair carries about so much power, greatest channel, estimated from
+    /// above.
+    SplitSource(f64),
+    /// Replace the receiver by its children; likewise.
+    SplitReceiver(f64),
 }
 
 /// Settings of the oracle, in the units of the pass.
@@ -140,10 +141,10 @@ impl Oracle {
                 return Decision::Exchange(power * f64::from(oracle_form_factor(source, receiver)));
             }
             return match (source_exchanges, receiver_exchanges) {
-                (true, false) => Decision::SplitReceiver,
-                (false, true) => Decision::SplitSource,
-                _ if source.radius >= receiver.radius => Decision::SplitSource,
-                _ => Decision::SplitReceiver,
+                (true, false) => Decision::SplitReceiver(bound),
+                (false, true) => Decision::SplitSource(bound),
+                _ if source.radius >= receiver.radius => Decision::SplitSource(bound),
+                _ => Decision::SplitReceiver(bound),
             };
         }
         let carried = power * f64::from(oracle_form_factor(source, receiver));
@@ -174,12 +175,16 @@ impl Oracle {
         power < DROP_SHARE * self.threshold
     }
 
-    /// About how many exchanges lie below a pair: each carries up to the threshold, and clusters that are too
-    /// near or too bent to exchange have to be taken apart, whatever they carry; but of weak parts only those exchange
-    /// that win their lots.
-    pub fn expected_exchanges(&self, source: &Element, receiver: &Element, radiosity: f64) -> f32 {
-        let power = radiosity * f64::from(source.area * oracle_form_factor(source, receiver));
-        let gap = source.bounds.distance(receiver.bounds);
+    /// About how many exchanges lie below a pair that carries `power` over `gap`: each carries up to the threshold, and clusters
+    /// that are too near or too bent to exchange have to be taken apart, whatever they carry; but of weak parts only
+    /// those exchange that win their lots.
+    pub fn expected_exchanges(
+        &self,
+        source: &Element,
+        receiver: &Element,
+        gap: f32,
+        power: f64,
+    ) -> f32 {
         let receivers = parts_at(receiver, gap);
         let parts = parts_at(source, gap) * receivers;
         let won = power / self.stake(EXCHANGE_STAKE, receiver.area / receivers);
@@ -221,10 +226,10 @@ impl Oracle {
     fn split_larger(&self, source: &Element, receiver: &Element, carried: f64) -> Decision {
         match (self.can_split(source), self.can_split(receiver)) {
             (false, false) => Decision::Exchange(carried),
-            (true, false) => Decision::SplitSource,
-            (false, true) => Decision::SplitReceiver,
-            (true, true) if source.area >= receiver.area => Decision::SplitSource,
-            (true, true) => Decision::SplitReceiver,
+            (true, false) => Decision::SplitSource(carried),
+            (false, true) => Decision::SplitReceiver(carried),
+            (true, true) if source.area >= receiver.area => Decision::SplitSource(carried),
+            (true, true) => Decision::SplitReceiver(carried),
         }
     }
 
@@ -239,9 +244,9 @@ impl Oracle {
         if larger.is_triangle() || (larger.cone_cos > 0.0 && larger.faces_away(larger, self.tau)) {
             Decision::Nothing
         } else if source.facet_count >= receiver.facet_count {
-            Decision::SplitSource
+            Decision::SplitSource(f64::INFINITY)
         } else {
-            Decision::SplitReceiver
+            Decision::SplitReceiver(f64::INFINITY)
         }
     }
 

@@ -57,11 +57,9 @@ impl Known {
         claim: None,
     };
 
-    pub(super) fn below(self) -> Self {
-        Self {
-            knowledge: self.knowledge.below(),
-            ..self
-        }
+    /// Goes on to pairs one split further down.
+    pub(super) fn descend(&mut self) {
+        self.knowledge.level += 1;
     }
 
     /// Nothing passes between occluded elements; only a check goes on, to cast their rays.

@@ -20,7 +20,7 @@ pub struct Knowledge {
     /// Proved for a pair above, or for this one.
     pub verdict: Verdict,
     /// How many splits lie above.
-    level: u32,
+    pub(super) level: u32,
     /// Which of the task's lists holds what may block.
     list: u32,
     /// Packets of rays that a proof could have saved below the pair that was last asked about.
@@ -44,15 +44,6 @@ impl Knowledge {
         list: 0,
         asked_at: f32::INFINITY,
     };
-
-    /// Of a pair one split further down.
-    #[must_use]
-    pub fn below(self) -> Self {
-        Self {
-            level: self.level + 1,
-            ..self
-        }
-    }
 }
 
 /// What a query found.
@@ -142,6 +133,11 @@ impl<'a> Prover<'a> {
         Some(prover)
     }
 
+    /// Whether any box of air may hold a pair.
+    pub fn has_air(&self) -> bool {
+        self.boxes.any()
+    }
+
     /// Whether a box of air holds the pair, of which nothing was known: then it is proved visible.
     pub fn finds_air(&self, source: &Element, receiver: &Element, knowledge: Knowledge) -> bool {
         // Nothing holds the boxes of what volume clusters bundle.
@@ -151,33 +147,38 @@ impl<'a> Prover<'a> {
             && self.boxes.hold(source.bounds, receiver.bounds)
     }
 
-    /// What to ask about a pair that is about to be split; `is_played` if it has won a lot. `expected` is how many packets of eight rays are likely to be
-    /// cast below it; worked out only where the answer hangs on it.
+    /// Whether a pair that is about to be split may be asked about, of which nothing was known; `is_played` if it has won
+    /// a lot. Says so of most pairs at next to no cost.
+    #[inline(always)]
+    pub fn may_ask(&mut self, knowledge: Knowledge, is_played: bool) -> bool {
+        match self.stride {
+            Stride::Every(levels) => knowledge.level.is_multiple_of(levels),
+            // A pair that has been played for is worth about one exchange, which is no query's price.
+            Stride::Auto => !is_played && self.schedule.may_ask(),
+        }
+    }
+
+    /// What to ask about a pair that is about to be split and that [`Self::may_ask`] let pass. `expected` is how many
+    /// packets of eight rays are likely to be cast below it, given the gap between its ends; worked out only where the
+    /// answer hangs on it.
     pub fn plan_before_split(
         &mut self,
         source: &Element,
         receiver: &Element,
         knowledge: Knowledge,
-        is_played: bool,
-        expected: impl FnOnce() -> f32,
+        expected: impl FnOnce(f32) -> f32,
     ) -> (Queries, Occasion) {
         let never = (Queries::None, Occasion::Split(0.0));
-        let is_due = knowledge.verdict == Verdict::Unknown
-            && match self.stride {
-                Stride::Every(levels) => knowledge.level.is_multiple_of(levels),
-                // A pair that has been played for is worth about one exchange, which is no query's price. Boxes that meet
-                // are rarely parted by one plane, and each is in the other's way.
-                Stride::Auto => {
-                    !is_played
-                        && self.schedule.may_ask()
-                        && source.bounds.distance(receiver.bounds) > 0.0
-                }
-            };
         // A pair that shares surface has neither a plane between its ends nor an empty shaft.
-        if !is_due || source.overlaps(receiver) {
+        if source.overlaps(receiver) {
             return never;
         }
-        let expected = expected();
+        let gap = source.bounds.distance(receiver.bounds);
+        // Boxes that meet are rarely parted by one plane, and each is in the other's way.
+        if gap <= 0.0 && self.stride == Stride::Auto {
+            return never;
+        }
+        let expected = expected(gap);
         let queries = match self.stride {
             Stride::Every(_) => Queries::Both,
             Stride::Auto => self.schedule.before_split(expected, knowledge.asked_at),

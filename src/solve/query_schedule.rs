@@ -97,6 +97,10 @@ const LEAST_EXPECTED: f32 = 2.0;
 const LEAST_SHORTENED: f32 = 8.0;
 /// Least factor between what proofs of nested pairs may save that are both looked at.
 const STRIDE_FACTOR: f32 = 2.0;
+/// Pairs looked at in vain for each that is then passed over after one that is looked at, and how many at most: looking
+/// costs some hundred instructions, in a walk of two thousand a pair.
+const VAIN_BEFORE_REST: u32 = 8;
+const MOST_REST: u32 = 15;
 /// Sizes of pairs told apart: powers of four of the packets that a proof may save.
 const SIZES: usize = 8;
 /// What the last two exchanges can have been.
@@ -119,6 +123,10 @@ pub struct QuerySchedule {
     /// Of solids, where no rectangle was found.
     solids: [QueryRecord; SIZES],
     history: usize,
+    /// Pairs that were looked at since a query last paid.
+    vain: u32,
+    /// How many pairs to pass over.
+    rest: u32,
 }
 
 impl QuerySchedule {
@@ -131,6 +139,8 @@ impl QuerySchedule {
             shortening: [QueryRecord::PRIOR; SIZES],
             solids: [QueryRecord::PRIOR; SIZES],
             history: MIXED,
+            vain: 0,
+            rest: 0,
         }
     }
 
@@ -154,12 +164,20 @@ impl QuerySchedule {
             shortening: std::array::from_fn(|size| mean(&|s| s.shortening[size])),
             solids: std::array::from_fn(|size| mean(&|s| s.solids[size])),
             history: MIXED,
+            vain: 0,
+            rest: 0,
         }
     }
 
-    /// False where no pair would be asked about, however large.
-    pub fn may_ask(&self) -> bool {
-        self.history % 4 != MIXED || self.technique == Technique::Blockers
+    /// False where no pair would be asked about, however large, or where so many were looked at in vain that most
+    /// are passed over.
+    pub fn may_ask(&mut self) -> bool {
+        if self.history % 4 == MIXED && self.technique != Technique::Blockers {
+            return false;
+        }
+        let rests = self.rest > 0;
+        self.rest -= u32::from(rests);
+        !rests
     }
 
     /// What to ask about a pair with `expected` packets to be cast below it, where the last one asked about above had
@@ -168,7 +186,7 @@ impl QuerySchedule {
         if expected < LEAST_EXPECTED || expected * STRIDE_FACTOR > asked_at {
             return Queries::None;
         }
-        match self.likely(expected) {
+        let queries = match self.likely(expected) {
             Queries::None
                 if self.technique == Technique::Blockers
                     && self.history % 4 == MIXED
@@ -178,7 +196,13 @@ impl QuerySchedule {
                 Queries::Shorten
             }
             queries => queries,
-        }
+        };
+        self.vain = match queries {
+            Queries::None => self.vain + 1,
+            _ => 0,
+        };
+        self.rest = (self.vain / VAIN_BEFORE_REST).min(MOST_REST);
+        queries
     }
 
     /// What to ask about an exchange of `packets`.
@@ -300,6 +324,29 @@ mod tests {
         assert_eq!(asked(1.9, f32::INFINITY), Queries::None);
         assert_eq!(asked(100.0, 199.0), Queries::None);
         assert_eq!(asked(100.0, 200.0), Queries::Visibility);
+    }
+
+    #[test]
+    fn where_nothing_pays_most_pairs_are_passed_over_until_something_does() {
+        let mut schedule = after(Technique::Occlusion, &[Evidence::Blocked]);
+        let split = Occasion::Split(100.0);
+        let looked_at = |schedule: &mut QuerySchedule, success: bool| -> u32 {
+            let look = |_| {
+                let looks = schedule.may_ask();
+                if looks && schedule.before_split(100.0, f32::INFINITY) != Queries::None {
+                    schedule.learn_occlusion(split, success, 100);
+                }
+                u32::from(looks)
+            };
+            (0..1_600).map(look).sum()
+        };
+        looked_at(&mut schedule, false);
+        let barren = looked_at(&mut schedule, false);
+        assert!((100..130).contains(&barren), "{barren}");
+        for _ in 0..64 {
+            schedule.learn_occlusion(split, true, 1);
+        }
+        assert!(looked_at(&mut schedule, true) > 1_580);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::radiosity::Gatherer;
 use super::statistics::PassStatistics;
 use crate::cluster::NodeKind;
 use crate::math::NodeId;
-use crate::visibility::SampledVisibility;
+use crate::visibility::{SampledVisibility, Verdict};
 use glam::Vec3;
 
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
@@ -120,43 +120,59 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     }
 
     /// Known to be visible if a box of air holds both.
-    pub(super) fn look_for_air(
-        &mut self,
-        source: &Source,
-        receiver: &Receiver,
-        known: Known,
-    ) -> Known {
-        match &self.prover {
-            Some(prover) if prover.finds_air(source.element, receiver.element, known.knowledge) => {
-                self.outcome.statistics.visible_claims += 1;
-                Known {
-                    knowledge: known.knowledge.visible(),
-                    claim: Some(self.claim(source, receiver, None)),
-                }
-            }
-            _ => known,
+    pub(super) fn look_for_air(&mut self, source: &Source, receiver: &Receiver, known: &mut Known) {
+        if let Some(prover) = &self.prover
+            && prover.finds_air(source.element, receiver.element, known.knowledge)
+        {
+            self.outcome.statistics.visible_claims += 1;
+            known.knowledge = known.knowledge.visible();
+            known.claim = Some(self.claim(source, receiver, None));
         }
     }
 
+    /// Asks about a pair that is about to be split and carries `power`, where that is due.
+    #[inline(always)]
     pub(super) fn prove_before_split(
         &mut self,
         source: &Source,
         receiver: &Receiver,
-        greatest: f64,
-        known: Known,
-    ) -> Known {
-        let known = self.look_for_air(source, receiver, known);
+        power: f64,
+        known: &mut Known,
+    ) {
         let Some(prover) = &mut self.prover else {
-            return known;
+            return;
         };
+        if known.knowledge.verdict != Verdict::Unknown {
+            return;
+        }
+        let may_ask = prover.may_ask(known.knowledge, source.weight > 1.0);
+        if may_ask || prover.has_air() {
+            self.look_and_ask(source, receiver, power, known, may_ask);
+        }
+    }
+
+    /// Looks for a box of air that holds the pair, and if there is none and it `may_ask`, for another proof.
+    #[inline(never)]
+    fn look_and_ask(
+        &mut self,
+        source: &Source,
+        receiver: &Receiver,
+        power: f64,
+        known: &mut Known,
+        may_ask: bool,
+    ) {
+        self.look_for_air(source, receiver, known);
         let (from, to, pass) = (source.element, receiver.element, self.pass);
-        let is_played = source.weight > 1.0;
-        let (queries, occasion) =
-            prover.plan_before_split(from, to, known.knowledge, is_played, || {
-                pass.oracle.expected_exchanges(from, to, greatest)
+        if let Some(prover) = &mut self.prover
+            && may_ask
+            && known.knowledge.verdict == Verdict::Unknown
+        {
+            let (queries, occasion) = prover.plan_before_split(from, to, known.knowledge, |gap| {
+                pass.oracle.expected_exchanges(from, to, gap, power)
                     * packets_of_exchange(pass.config.rays)
             });
-        self.prove(source, receiver, known, queries, occasion)
+            self.prove(source, receiver, known, queries, occasion);
+        }
     }
 
     /// Asks the prover, if there is one, and keeps a new claim.
@@ -164,12 +180,12 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         &mut self,
         source: &Source,
         receiver: &Receiver,
-        known: Known,
+        known: &mut Known,
         queries: Queries,
         occasion: Occasion,
-    ) -> Known {
+    ) {
         let Some(prover) = self.prover.as_mut().filter(|_| queries != Queries::None) else {
-            return known;
+            return;
         };
         let proof: Proof = prover.ask(
             source.element,
@@ -179,15 +195,10 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             occasion,
             &mut self.outcome.statistics,
         );
-        let is_new = proof.knowledge.verdict != known.knowledge.verdict;
-        let claim = match is_new {
-            true => Some(self.claim(source, receiver, proof.occluder)),
-            false => known.claim,
-        };
-        Known {
-            knowledge: proof.knowledge,
-            claim,
+        if proof.knowledge.verdict != known.knowledge.verdict {
+            known.claim = Some(self.claim(source, receiver, proof.occluder));
         }
+        known.knowledge = proof.knowledge;
     }
 
     /// A new claim, kept if an audit wants it.

@@ -31,7 +31,7 @@ impl<const C: usize> Task<'_, '_, C> {
             local: 0,
         };
         let greatest = self.greatest(&source);
-        self.walk(&source, &receiver, greatest, Known::NOTHING);
+        self.walk(&source, &receiver, greatest, &Known::NOTHING);
         TaskOutcome {
             owner,
             outcome: self.outcome,
@@ -40,7 +40,7 @@ impl<const C: usize> Task<'_, '_, C> {
     }
 
     /// Decides a pair whose source has the unshot radiosity `greatest`, of its greatest channel.
-    fn walk(&mut self, source: &Source, receiver: &Receiver, greatest: f64, known: Known) {
+    fn walk(&mut self, source: &Source, receiver: &Receiver, greatest: f64, known: &Known) {
         if greatest <= 0.0 || self.is_interrupted() {
             return;
         }
@@ -68,35 +68,47 @@ impl<const C: usize> Task<'_, '_, C> {
                 let weight = source.weight;
                 match self.exchange(source, receiver, greatest / weight, carried / weight, known) {
                     Next::Done => {}
-                    Next::SplitSource => self.split(source, receiver, greatest, known, true),
-                    Next::SplitReceiver => self.split(source, receiver, greatest, known, false),
-                    Next::SplitShadow(known) => {
-                        self.split_receiver(source, receiver, greatest, known.below());
+                    Next::SplitSource => {
+                        self.split(source, receiver, greatest, carried, known, true)
+                    }
+                    Next::SplitReceiver => {
+                        self.split(source, receiver, greatest, carried, known, false);
+                    }
+                    Next::SplitShadow(mut known) => {
+                        known.descend();
+                        self.split_receiver(source, receiver, greatest, &known);
                     }
                 }
             }
-            Decision::SplitSource => self.split(source, receiver, greatest, known, true),
-            Decision::SplitReceiver => self.split(source, receiver, greatest, known, false),
+            Decision::SplitSource(power) => {
+                self.split(source, receiver, greatest, power, known, true);
+            }
+            Decision::SplitReceiver(power) => {
+                self.split(source, receiver, greatest, power, known, false);
+            }
         }
     }
 
-    /// Asks for a guarantee where it is due, and goes on with the children of one end.
+    /// Asks for a guarantee where it is due about a pair that carries `power`, and goes on with the children of one end.
     fn split(
         &mut self,
         source: &Source,
         receiver: &Receiver,
         greatest: f64,
-        known: Known,
+        power: f64,
+        known: &Known,
         by_source: bool,
     ) {
-        let known = self.prove_before_split(source, receiver, greatest, known);
+        let mut known = *known;
+        self.prove_before_split(source, receiver, power, &mut known);
         if known.ends_the_pair(self.pass.config) {
             return;
         }
+        known.descend();
         if by_source {
-            self.split_source(source, receiver, known.below());
+            self.split_source(source, receiver, &known);
         } else {
-            self.split_receiver(source, receiver, greatest, known.below());
+            self.split_receiver(source, receiver, greatest, &known);
         }
     }
 
@@ -108,7 +120,7 @@ impl<const C: usize> Task<'_, '_, C> {
         self.outcome.interrupted
     }
 
-    fn split_source(&mut self, source: &Source, receiver: &Receiver, known: Known) {
+    fn split_source(&mut self, source: &Source, receiver: &Receiver, known: &Known) {
         if let Shape::Triangle(corners) = source.element.shape {
             let first =
                 self.pass.shooters[source.owner as usize].splits[source.slot as usize].first;
@@ -145,7 +157,7 @@ impl<const C: usize> Task<'_, '_, C> {
         source: &Source,
         receiver: &Receiver,
         greatest: f64,
-        known: Known,
+        known: &Known,
     ) {
         let context = self.pass.context;
         if let Shape::Triangle(corners) = receiver.element.shape {

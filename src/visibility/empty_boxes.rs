@@ -134,6 +134,11 @@ pub struct NearbyBoxes {
 }
 
 impl NearbyBoxes {
+    /// True if there is a box at all.
+    pub fn any(&self) -> bool {
+        self.octet.is_some()
+    }
+
     /// True if one of the boxes holds both, which therefore see each other fully.
     // Lanes of several arrays run in step: an index says so, and is what vectorises.
     #[allow(clippy::needless_range_loop)]
