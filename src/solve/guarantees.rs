@@ -51,7 +51,9 @@ impl Guarantees {
     /// Everything, whatever the technique.
     fn with_occluders(scene: &Scene, hierarchy: &Hierarchy, config: &OccluderConfig) -> Self {
         let start = Instant::now();
-        Self::new(scene, extract_occluders(scene, hierarchy, config), start)
+        let extract = || extract_occluders(scene, hierarchy, config);
+        let (set, tree) = rayon::join(extract, || SceneTree::build(scene));
+        Self::over(tree, scene, set, start)
     }
 
     /// The same with these occluders, whatever the extraction would find: for tests that plant one.
@@ -60,8 +62,11 @@ impl Guarantees {
     }
 
     fn new(scene: &Scene, occluder_set: OccluderSet, start: Instant) -> Self {
+        Self::over(SceneTree::build(scene), scene, occluder_set, start)
+    }
+
+    fn over(tree: SceneTree, scene: &Scene, occluder_set: OccluderSet, start: Instant) -> Self {
         let slabs: Vec<SlabRectangle> = occluder_set.occluders.iter().map(|o| o.slab).collect();
-        let tree = SceneTree::build(scene);
         Self {
             occluders: OccluderTree::build(
                 &slabs,

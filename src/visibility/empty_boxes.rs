@@ -42,39 +42,39 @@ impl EmptyBoxes {
         let grower = BoxGrower::new(scene);
         let slack = 4.0 * scene.tolerance().tau;
         let mut boxes: Vec<EmptyBox> = Vec::new();
-        let mut open = vec![true; sights.len()];
-        let mut next = 0;
+        // Sights that no box holds yet, and how many of them have been seeds.
+        let mut open: Vec<[Vec3; 2]> = sights.to_vec();
+        let mut tried = 0;
         let mut poor = 0;
-        while next < sights.len() && poor < POOR_BATCHES {
-            let mut seeds = Vec::with_capacity(BATCH);
-            while next < sights.len() && seeds.len() < BATCH {
-                if open[next] {
-                    seeds.push(Aabb::from_points(sights[next]));
-                }
-                next += 1;
-            }
-            let grown: Vec<Option<Aabb>> = seeds
-                .par_iter()
-                .map_init(|| grower.clone(), |grower, &seed| grower.grow(seed))
-                .collect();
-            let before = boxes.len();
-            for found in grown.into_iter().flatten() {
+        while tried < open.len() && poor < POOR_BATCHES {
+            let seeds = &open[tried..open.len().min(tried + BATCH)];
+            let grow = |grower: &mut BoxGrower, &seed: &[Vec3; 2]| {
+                let found = grower.grow(Aabb::from_points(seed))?;
                 let loose = Aabb {
                     min: found.min - slack,
                     max: found.max + slack,
                 };
-                let held: Vec<usize> = (0..sights.len())
-                    .filter(|&i| open[i] && sights[i].iter().all(|&p| loose.contains(p)))
-                    .collect();
+                let is_held = |&at: &usize| open[at].iter().all(|&p| loose.contains(p));
+                Some((found, (0..open.len()).filter(is_held).collect()))
+            };
+            let grown: Vec<Option<(Aabb, Vec<usize>)>> =
+                seeds.par_iter().map_init(|| grower.clone(), grow).collect();
+            let before = boxes.len();
+            let mut is_open = vec![true; open.len()];
+            for (found, mut held) in grown.into_iter().flatten() {
+                held.retain(|&at| is_open[at]);
                 if held.len() >= LEAST_GAIN {
-                    held.iter().for_each(|&i| open[i] = false);
+                    held.iter().for_each(|&at| is_open[at] = false);
                     boxes.push(EmptyBox {
                         bounds: found,
-                        sights: held.into_iter().map(|i| sights[i]).collect(),
+                        sights: held.into_iter().map(|at| open[at]).collect(),
                     });
                 }
             }
             poor = if boxes.len() > before { 0 } else { poor + 1 };
+            tried = (0..tried + seeds.len()).filter(|&at| is_open[at]).count();
+            let mut at = 0..;
+            open.retain(|_| at.next().is_some_and(|at| is_open[at]));
         }
         boxes.sort_by_key(|found| std::cmp::Reverse(found.sights.len()));
         Self { boxes }
