@@ -10,6 +10,7 @@ use super::element_vector::Space;
 use super::pair::{Known, Receiver, Source, Target, exchange_key};
 use super::query_schedule::{Evidence, Occasion, Queries};
 use super::task::{Task, packets_of_exchange};
+use super::uneven_source;
 use crate::math::hash_u64;
 use crate::visibility::{
     AllClear, LEAST_COSINE, PartVisibility, SampledLight, SampledVisibility, Verdict,
@@ -127,11 +128,21 @@ impl<const C: usize> Task<'_, '_, C> {
         self.outcome.statistics.exchanges += 1;
         // Below zero where a second set stands for others that the first overrated.
         if visibility != PartVisibility::even(0.0) {
-            let radiosity = self.radiosity(source).map(f64::from);
-            let light = radiosity.map(|b| b * source.weight);
+            let light = self.light_towards(source, receiver.element);
             self.deposit(receiver, &unoccluded, &visibility, light);
         }
         Next::Done
+    }
+
+    /// Radiosity that counts towards a receiver, times the source's weight.
+    fn light_towards(&self, source: &Source, receiver: &Element) -> [f64; C] {
+        let mean = self.radiosity(source).map(f64::from);
+        if !source.element.is_triangle() {
+            return mean.map(|b| b * source.weight);
+        }
+        let shooter = &self.pass.shooters[source.owner as usize];
+        let factor = uneven_source::towards(shooter, source.slot, source.element, receiver);
+        std::array::from_fn(|c| mean[c] * source.weight * factor[c])
     }
 
     /// Visibility by samples, or `None` if the pair is to be split instead.

@@ -62,6 +62,7 @@ mod statistics;
 mod tail;
 mod task;
 mod triangle_vector;
+mod uneven_source;
 mod walk;
 
 pub use claim_check::{ClaimCheck, Contradiction};

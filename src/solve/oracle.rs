@@ -77,10 +77,10 @@ const SURE: f64 = 0.999;
 /// of 1.7 %, this 1.2 % for 1.6 times the time, a sixteenth of it 1.1 % for 5 times. With light left part by part: a quarter 1.03 %,
 /// this 0.68 % (accuracy/parts.md).
 const PARTIAL_SHARE: f64 = 1.0 / 16.0;
-/// Share of the threshold that may ride on the form factor's assumption of an even light. Measured (`bench/runs/`,
-/// accuracy): without such a limit two-rooms is 1.1 % too dark and d 0.6 %, with it 0.7 and 0.3 %, for a tenth more time;
-/// half of it gains little more.
-const UNEVEN_SHARE: f64 = 1.0 / 32.0;
+/// Share of the threshold that may ride on the light being no more than linear over its source ([`super::uneven_source`]).
+/// Measured (`bench/runs/`, accuracy/linear_sources.md): a quarter of it changes no error and takes 3 to 17 % more
+/// exchanges, four times it takes two-rooms at 1e-4 from 1.97 to 2.29 %.
+const UNEVEN_SHARE: f64 = 1.0 / 8.0;
 /// A patch is not split once its radius is this many tau: its samples would start inside the margins.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
 

@@ -55,6 +55,27 @@ fn a_furnace_has_the_same_radiosity_everywhere() {
 }
 
 #[test]
+fn a_room_that_is_darker_in_its_corners_loses_no_light_from_bounce_to_bounce() {
+    let mut s = scene(vec![grey(0.6, 0.0), grey(0.0, 1.0)]);
+    let (lo, hi) = (Vec3::new(-0.5, -0.3, -0.5), Vec3::new(0.5, 0.3, 0.5));
+    add_box(&mut s, lo, hi, 1, [0, 0, 0, 1, 0, 0], true);
+    let after = |passes| {
+        let config = SolveConfig {
+            stop: Stop::Passes(passes),
+            ..SolveConfig::default()
+        };
+        let solved = run(&s, &config);
+        let power = &solved.power;
+        (power.imbalance, power.unshot / power.emitted)
+    };
+    let (direct, shot) = after(1);
+    let (reflected, _) = after(2);
+    // Of what the second pass shot.
+    let lost = (reflected - direct) / shot;
+    assert!(lost.abs() < 5.0e-4, "{lost}");
+}
+
+#[test]
 fn the_passes_that_are_not_made_are_summed() {
     // A few percent of the power are left when the solve stops, and in a furnace every pass is like the one before.
     for reflectance in [0.5, 0.8] {
