@@ -1,8 +1,10 @@
 //! Where solids stand on surfaces, the surfaces are hidden; nowhere else.
 
+use certilux::embree::DeviceConfig;
 use certilux::math::PolygonId;
 use certilux::scene::generate::generate;
-use certilux::scene::{Facet, LoadConfig, Scene, Side, load_text};
+use certilux::scene::{Facet, LoadConfig, Scene, Side, SidesMode, load_text};
+use certilux::solve::{PreparedScene, Silent, SolveConfig, solve};
 use glam::DVec3;
 use std::fmt::Write;
 
@@ -189,4 +191,34 @@ fn what_another_side_owns_is_hidden() {
         counts[usize::from(hidden)] += 1;
     }
     assert!(counts.iter().all(|&n| n > 100), "{counts:?}");
+}
+
+#[test]
+fn what_a_covered_lamp_sends_is_reported_as_swallowed() {
+    // A box stands on half of a lamp that faces up; nothing else is there.
+    let mut obj = String::from("mtllib m.mtl\n");
+    for [x, y, z] in [
+        [0, 0, 0],
+        [2, 0, 0],
+        [2, 1, 0],
+        [0, 1, 0],
+        [1, 0, 0],
+        [1, 1, 0],
+        [1, 0, 1],
+        [2, 0, 1],
+        [2, 1, 1],
+        [1, 1, 1],
+    ] {
+        writeln!(obj, "v {x} {y} {z}").unwrap();
+    }
+    obj.push_str("usemtl lamp\nf 1 2 3 4\nusemtl grey\nf 7 8 9 10\nf 5 2 8 7\n");
+    obj.push_str("f 3 6 10 9\nf 2 3 9 8\nf 6 5 7 10\nf 5 6 3 2\n");
+    let prepared = PreparedScene::new(read(&obj), SidesMode::Auto, 1, &DeviceConfig::default())
+        .expect("Embree builds");
+    let solved = solve(&prepared, &SolveConfig::default(), &Silent).expect("solves");
+    let share = solved.power.swallowed / solved.power.emitted;
+    assert!((share - 0.5).abs() < 0.01, "{share}");
+    assert!(solved.power.absorbed >= solved.power.swallowed);
+    let warned = |w: &&String| w.contains("is a lamp covered");
+    assert_eq!(solved.warnings.iter().filter(warned).count(), 1);
 }

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 
 /// Angle in degrees from which on walls are said to be off the file's axes.
 const LEAST_ASKEW: f64 = 0.005;
+/// Share of the emitted power, in per cent, from which it is worth a line that nothing receives it.
+const LEAST_SWALLOWED: f64 = 0.01;
 
 /// Prints what was done, how sure it is, and which files hold it.
 pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
@@ -54,6 +56,12 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
             share(power.extrapolated)
         ));
     }
+    if share(power.swallowed) >= LEAST_SWALLOWED {
+        tell(format_args!(
+            "of what is absorbed, {:.2} % of the emitted power ends on backs that have no side, or between surfaces that touch",
+            share(power.swallowed)
+        ));
+    }
     if let Some(scales) = &stats.row_scales {
         let least = scales.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = scales.iter().copied().fold(0.0, f64::max);
@@ -63,8 +71,8 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     }
     let s = &stats.seconds;
     tell(format_args!(
-        "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, solve {:.2}, output {:.2}",
-        s.load, s.embree, s.cluster, s.solve, s.output
+        "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, occluders {:.2}, solve {:.2}, output {:.2}",
+        s.load, s.embree, s.cluster, s.occluders, s.solve, s.output
     ));
     for file in files {
         tell(format_args!("wrote {}", file.display()));

@@ -49,6 +49,7 @@ impl<const C: usize> Solver<'_, C> {
             unshot: self.to_watts(unshot),
             imbalance,
             extrapolated: self.to_watts(extrapolated),
+            swallowed: self.to_watts(lost.swallowed),
         }
     }
 

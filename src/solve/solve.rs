@@ -14,6 +14,8 @@ use super::statistics::{PassStatistics, PowerLedger};
 /// Share of the emitted power unaccounted for from which a solve warns: default settings promise less, and the ledger's
 /// own noise stays below it.
 const IMBALANCE_TO_WARN_OF: f64 = 0.01;
+/// Share of the emitted power that may end where no face receives it before a warning says so.
+const SWALLOWED_TO_WARN_OF: f64 = 0.01;
 
 /// A finished solve.
 #[derive(Clone, Debug)]
@@ -123,6 +125,12 @@ impl<const C: usize> Solver<'_, C> {
             warnings.push(format!(
                 "{:+.2} % of the power is unaccounted for: a smaller epsilon brings it down",
                 100.0 * power.imbalance
+            ));
+        }
+        if power.swallowed > SWALLOWED_TO_WARN_OF * power.emitted {
+            warnings.push(format!(
+                "{:.2} % of the power ends on backs that have no side, or between surfaces that touch: is a lamp covered, or a face turned about?",
+                100.0 * power.swallowed / power.emitted
             ));
         }
         let solution = self.solution();

@@ -76,4 +76,7 @@ pub struct PowerLedger {
     /// What arrives on surfaces in the passes that were not made, from the last one as a geometric series; a part of
     /// what is absorbed and escaped. 0 where passes were counted.
     pub extrapolated: f64,
+    /// The part of `absorbed` that is in no face's irradiance: it ends on backs that have no side, or within surfaces that
+    /// others cover. Measured by the rays that measure `escaped`.
+    pub swallowed: f64,
 }

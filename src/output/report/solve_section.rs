@@ -86,6 +86,9 @@ struct Power {
     /// Absent in folders of earlier versions, which left it unshot.
     #[serde(default)]
     extrapolated: f64,
+    /// Absent in folders of earlier versions.
+    #[serde(default)]
+    swallowed: f64,
 }
 
 /// The section of one solved folder; `picture` is a PNG.
@@ -130,7 +133,8 @@ fn energy(power: &Power) -> String {
         "Where the energy went",
         "W",
         &[
-            part("absorbed by surfaces", power.absorbed),
+            part("absorbed by faces", power.absorbed - power.swallowed),
+            part("swallowed by backs and touching faces", power.swallowed),
             part("escaped from the scene", power.escaped),
             part("left out: not shot, or dropped", power.unshot),
         ],
@@ -205,7 +209,7 @@ fn guarantees(stats: &Stats) -> String {
     out.push_str(&rays_saved(stats));
     let _ = writeln!(
         out,
-        "<p>Asked were {} shafts: {} pairs were proved fully visible, {} fully occluded.</p>",
+        "<p>Asked were {} shafts. With them, and with boxes of air that need no asking, {} pairs were proved fully visible; {} fully occluded.</p>",
         count(sum(|p| p.shafts)),
         count(sum(|p| p.visible_claims)),
         count(sum(|p| p.occluded_claims)),
