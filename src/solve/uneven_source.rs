@@ -38,15 +38,19 @@ pub(super) fn towards<const C: usize>(
         if mean[c] <= 0.0 {
             return 1.0;
         }
-        let part = |k: usize| shooter.unshot[first + k][c];
+        let part = |k: usize| f64::from(shooter.unshot[first + k][c]);
         let middle = (part(0) + part(1) + part(2)) / 3.0;
-        let more: f32 = (0..3).map(|k| seen[k] * (part(k) - middle)).sum();
-        f64::from((1.0 + more / mean[c]).clamp(0.0, MOST))
+        let more: f64 = (0..3)
+            .map(|k| f64::from(seen[k]) * (part(k) - middle))
+            .sum();
+        (1.0 + more / f64::from(mean[c])).clamp(LEAST, MOST)
     })
 }
 
-/// A linear function is at most so many times its mean, at a corner.
-const MOST: f32 = 3.0;
+/// A linear function that is nowhere below zero has between half and twice its mean at the centres of the parts, and so
+/// at any mean of them.
+const LEAST: f64 = 0.5;
+const MOST: f64 = 2.0;
 
 /// How much of what a receiver sees of an evenly lit source lies about each of its corners, in all 1; `None` where it sees
 /// none. The centres of three of the four children make the degree-2 rule of a triangle.
