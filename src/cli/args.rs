@@ -8,6 +8,7 @@ use super::solve_args::{
     OccluderArgs, ReadingArgs, SceneArgs, SolveArgs, TechniqueArg, parse_threads,
 };
 use super::sweep_args::SweepCommand;
+use super::typed_number::parse_whole;
 use super::view_args::ViewCommand;
 use crate::experiment::AuditConfig;
 use crate::output::UpAxis;
@@ -24,7 +25,7 @@ use std::path::PathBuf;
                   A first solve:  certilux generate cornell --out scenes  &&  certilux solve scenes/cornell.obj --out solved"
 )]
 pub struct Cli {
-    /// No progress and no summary; errors and warnings still go to standard error.
+    /// No progress and no summary; what a command is to print stays, errors and warnings still go to standard error.
     #[arg(long, short, global = true)]
     pub quiet: bool,
     /// Messages on standard error as JSON, one object a line, with every pass; RUST_LOG chooses what (default: info).
@@ -210,7 +211,7 @@ pub struct ClustersCommand {
     #[arg(long, value_name = "FILE.ply")]
     pub out: PathBuf,
     /// Clusters to show: the hierarchy is cut where it has this many nodes.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub count: u32,
 }
 
@@ -249,13 +250,13 @@ pub struct AuditCommand {
     #[command(flatten)]
     pub solve: SolveArgs,
     /// Claims to audit: a uniform sample of those made, or all.
-    #[arg(long, value_name = "N|all", default_value = DEFAULT_CLAIMS, value_parser = parse_claims)]
+    #[arg(long, value_name = "N|all", default_value = DEFAULT_CLAIMS, value_parser = parse_claims, allow_negative_numbers = true)]
     pub claims: usize,
     /// Rays cast against each claim: half of them uniform, half aimed at borders.
-    #[arg(long, value_name = "N", default_value_t = AuditConfig::default().rays_per_claim, value_parser = clap::value_parser!(u32).range(..=1 << 20))]
+    #[arg(long, value_name = "N", default_value_t = AuditConfig::default().rays_per_claim, value_parser = clap::value_parser!(u32).range(1..=1 << 20), allow_negative_numbers = true)]
     pub rays_per_claim: u32,
-    /// Claims of full visibility to test against every polygon of the scene.
-    #[arg(long, value_name = "N", default_value_t = AuditConfig::default().brute_force)]
+    /// Claims of full visibility to test against every polygon of the scene: the first N of those audited.
+    #[arg(long, value_name = "N", default_value_t = AuditConfig::default().brute_force, value_parser = parse_whole::<usize>, allow_negative_numbers = true)]
     pub brute_force: usize,
     /// Also measure, pass by pass, how much of full occlusion and full visibility is detected, each pass
     /// from the state that the technique normal leaves.
@@ -295,7 +296,7 @@ pub struct CompareCommand {
     #[arg(long, value_delimiter = ',', value_enum, default_values_t = [TechniqueArg::Visibility, TechniqueArg::Occlusion, TechniqueArg::Blockers])]
     pub techniques: Vec<TechniqueArg>,
     /// Repeats; times are their medians.
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub repeat: u32,
     /// The table for programs.
     #[arg(long, value_name = "FILE.csv")]
@@ -337,7 +338,7 @@ pub struct BenchCommand {
     #[arg(long, value_enum, default_value_t = BenchFormat::Text)]
     pub format: BenchFormat,
     /// Threads; 0 is one a processor. Counts do not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads, allow_negative_numbers = true)]
     pub threads: usize,
 }
 

@@ -3,11 +3,11 @@
 use super::args::AuditCommand;
 use super::error::CliError;
 use super::file_head::FileHead;
+use super::file_plan::FilePlan;
 use super::logs;
 use super::progress::Progress;
-use super::result_paths::check_result_paths;
 use super::scene_source::{load_scene, prepare};
-use super::session::Session;
+use super::session::{Session, print_line};
 use super::solve_command::with_threads;
 use crate::experiment::{AuditConfig, AuditReport, Detection, DetectionConfig, audit, detection};
 use crate::output::write_json;
@@ -25,7 +25,10 @@ pub fn run(session: &Session, command: &AuditCommand) -> Result<(), CliError> {
             config.technique.name()
         ));
     }
-    check_result_paths(&command.json)?;
+    FilePlan::default()
+        .scene("SCENE", &command.scene.scene)
+        .writes("--json", &command.json)
+        .check()?;
     with_threads(command.scene.reading.threads, || {
         audit_and_report(session, command, &config)
     })
@@ -95,8 +98,9 @@ fn audit_and_report(
         false => Vec::new(),
     };
     let seconds = start.elapsed().as_secs_f64();
-    summarise(session, &prepared.scene.name, &report, seconds);
-    print_detection(session, &detection);
+    // The findings are the result, not progress: --quiet leaves them.
+    print_findings(&prepared.scene.name, &report, &audit_config, seconds);
+    print_detection(&detection);
     if let Some(path) = &command.json {
         let file = AuditFile {
             head: FileHead::new(session, prepared.embree_version),
@@ -119,24 +123,25 @@ fn audit_and_report(
     }
 }
 
-fn summarise(session: &Session, scene: &str, report: &AuditReport, seconds: f64) {
-    session.say(format_args!(
+fn print_findings(scene: &str, report: &AuditReport, config: &AuditConfig, seconds: f64) {
+    print_line(format_args!(
         "{scene}: {} of {} claims audited ({} of occlusion, {} of visibility) in {seconds:.1} s",
         report.claims_audited,
         report.claims_made,
         report.occlusion_claims,
         report.visibility_claims
     ));
-    session.say(format_args!(
-        "proofs replayed: {} of {} occluders lie in continuous surface, {} of {} occlusion claims hold, {} visibility claims tested against every polygon ({} undecided)",
+    print_line(format_args!(
+        "proofs replayed: {} of {} occluders lie in continuous surface, {} of {} occlusion claims hold, {} of {} visibility claims tested against every polygon ({} undecided)",
         report.occluders_proved,
         report.occluders_claimed,
         report.occlusion_proofs,
         report.occlusion_claims,
         report.visibility_proofs,
+        report.visibility_claims,
         report.polygons_undecided
     ));
-    session.say(format_args!(
+    print_line(format_args!(
         "rays: {} ({} uniform, {} aimed); contradictions by Embree: {}; contradictions that stand: {}",
         report.rays,
         report.rays_uniform,
@@ -144,6 +149,13 @@ fn summarise(session: &Session, scene: &str, report: &AuditReport, seconds: f64)
         report.contradictions_by_embree,
         report.contradictions_standing
     ));
+    let asked = report.claims_audited * u64::from(config.rays_per_claim);
+    if report.rays < asked {
+        print_line(format_args!(
+            "{} of the {asked} rays asked for were not cast: their segments run along the surface of an element, within the tolerance",
+            asked - report.rays
+        ));
+    }
 }
 
 /// As many passes as the solve is told to make.
@@ -158,15 +170,15 @@ fn detection_config(config: &SolveConfig) -> DetectionConfig {
     }
 }
 
-fn print_detection(session: &Session, rows: &[DetectionRow]) {
+fn print_detection(rows: &[DetectionRow]) {
     if rows.is_empty() {
         return;
     }
-    session.say(format_args!(
+    print_line(format_args!(
         "pass  exchanges  blocked %  detected %  of surely blocked %  visible %"
     ));
     for row in rows {
-        session.say(format_args!(
+        print_line(format_args!(
             "{:>4}  {:>9}  {:>9.1}  {:>10.1}  {:>19.1}  {:>9.1}",
             row.counts.pass,
             row.counts.exchanges,

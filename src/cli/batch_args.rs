@@ -33,10 +33,10 @@ pub struct BatchCommand {
     #[arg(long)]
     pub resume: bool,
     /// Jobs at the same time; 0 is one for every four threads.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads, allow_negative_numbers = true)]
     pub jobs: usize,
     /// Threads of all jobs together; 0 is one a processor.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads, allow_negative_numbers = true)]
     pub threads: usize,
     /// Memory of all jobs together, shared equally by those that run at the same time: refuse jobs that are likely to
     /// need more than their share.

@@ -6,9 +6,10 @@ use super::batch_progress::BatchProgress;
 use super::byte_size::ByteSize;
 use super::defaults::defaults_of;
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::flag_vocabulary::FlagVocabulary;
 use super::logs;
-use super::render::make_folder;
+use super::result_paths::make_result_folder;
 use super::session::{Session, print_line};
 use crate::job::{
     BatchCounts, BatchFile, Job, JobRecord, JobStatus, SettingValue, nearest, read_job_list,
@@ -30,6 +31,8 @@ const RESERVED: [&str; 7] = [
 ];
 /// Threads for which one job is enough: a solve spreads over them, its loading and writing do not.
 const THREADS_A_JOB: usize = 4;
+/// What became of the jobs.
+const RECORD: &str = "batch.json";
 /// Time between two looks at the jobs.
 const PATIENCE: Duration = Duration::from_millis(20);
 /// Time that jobs are given to stop by themselves: they ask every few hundred microseconds.
@@ -55,7 +58,11 @@ pub fn run(session: &Session, command: &BatchCommand, is_plain: bool) -> Result<
         return Ok(());
     }
     choose(&mut jobs, &command.only)?;
-    make_folder(&command.out)?;
+    FilePlan::default()
+        .reads("JOBS.toml", [&command.list])
+        .writes_into("--out", &command.out, [RECORD])
+        .check()?;
+    make_result_folder(&command.out, &[RECORD])?;
     Batch::new(session, command, jobs).run()
 }
 
@@ -133,7 +140,6 @@ impl<'a> Batch<'a> {
         while next < self.jobs.len() || !running.is_empty() {
             if self.session.interrupted.load(Ordering::Relaxed) {
                 self.stop(&mut running);
-                self.file.finished = true;
                 self.record(true)?;
                 return Err(self.stopped());
             }
@@ -283,7 +289,7 @@ impl<'a> Batch<'a> {
         self.recorded = Some(Instant::now());
         self.file.seconds = self.began.elapsed().as_secs_f64();
         // An interruption is no reason to leave it unwritten: it says what was interrupted.
-        let path = self.command.out.join("batch.json");
+        let path = self.command.out.join(RECORD);
         Ok(write_json(&path, &self.file, &AtomicBool::new(false))?)
     }
 

@@ -1,7 +1,7 @@
 //! Progress of a batch: a line a job that ended, and on a terminal a bar with those that run.
 
 use super::logs;
-use super::session::tell;
+use super::session::print_line;
 use crate::job::{JobRecord, JobStatus};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
@@ -43,7 +43,7 @@ impl BatchProgress {
         };
         let seconds = job.seconds.unwrap_or_default();
         self.bar
-            .suspend(|| tell(format_args!("{word:<8} {:>8.1} s  {}", seconds, job.name)));
+            .suspend(|| print_line(format_args!("{word:<8} {:>8.1} s  {}", seconds, job.name)));
     }
 
     /// Jobs that run now.

@@ -3,8 +3,8 @@
 use super::args::{BenchCommand, BenchFormat, SuiteArg};
 use super::callgrind::count_instructions;
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::logs;
-use super::result_paths::check_result_paths;
 use super::scene_source::read_scene;
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
@@ -29,9 +29,12 @@ const RUNS_AGAIN: u32 = 3;
 
 /// Runs the suite, then records or checks.
 pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
-    check_result_paths(&command.record)?;
+    (FilePlan::default().writes("--record", &command.record)).check()?;
     // A baseline that cannot be read is better known before the suite has run.
     let baseline = command.check.as_deref().map(read_baseline).transpose()?;
+    if let Some(baseline) = &baseline {
+        check_suite(baseline, command)?;
+    }
     let mut now = with_threads(command.threads, || run_suite(session, command.suite))?;
     if !command.no_instructions {
         now.instructions = count_instructions(session)?;
@@ -56,9 +59,9 @@ pub fn run(session: &Session, command: &BenchCommand) -> Result<(), CliError> {
     }
     let found = regressions(&baseline, &now);
     let key = match baseline.key == now.key {
-        true => "the baseline's key: counts exactly".to_owned(),
+        true => "the baseline's key: counts exactly, time ratios within tolerance".to_owned(),
         false => format!(
-            "a foreign key ({:?} in the baseline, {:?} here): counts within 0.1 %",
+            "a foreign key ({:?} in the baseline, {:?} here): counts within 0.1 %, time ratios within tolerance",
             baseline.key, now.key
         ),
     };
@@ -97,11 +100,25 @@ fn read_baseline(path: &Path) -> Result<Baseline, CliError> {
     serde_json::from_slice(&bytes).map_err(|e| fail(e.to_string()))
 }
 
+/// A baseline of another suite has nothing that the run could be compared with.
+fn check_suite(baseline: &Baseline, command: &BenchCommand) -> Result<(), CliError> {
+    let asked = command.suite.name();
+    if baseline.suite == asked && baseline.format == Baseline::FORMAT {
+        return Ok(());
+    }
+    Err(CliError::Argument(format!(
+        "--check: the baseline is of --suite {}, format {}; --suite {asked}, format {} was to be run",
+        baseline.suite,
+        baseline.format,
+        Baseline::FORMAT
+    )))
+}
+
 fn run_suite(session: &Session, which: SuiteArg) -> Result<Baseline, CliError> {
     let name = which.name();
     let cases = suite(name).unwrap_or_default();
     let mut now = Baseline {
-        format: 1,
+        format: Baseline::FORMAT,
         suite: name.to_owned(),
         key: BaselineKey::here(String::new(), ISA),
         occluders: Vec::new(),

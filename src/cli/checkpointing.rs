@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Name of the checkpoint in the folder of results.
-const FILE_NAME: &str = "solve.checkpoint";
+pub const FILE_NAME: &str = "solve.checkpoint";
 
 /// Passes on what a solve tells, and keeps its state after every pass.
 pub struct Checkpointing<'a> {

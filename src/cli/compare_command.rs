@@ -3,11 +3,11 @@
 use super::args::CompareCommand;
 use super::error::CliError;
 use super::file_head::FileHead;
+use super::file_plan::FilePlan;
 use super::logs;
 use super::progress::Progress;
-use super::result_paths::check_result_paths;
 use super::scene_source::{load_named, prepare};
-use super::session::Session;
+use super::session::{Session, print_line};
 use super::solve_command::with_threads;
 use crate::experiment::{
     ComparisonConfig, ComparisonRow, ComparisonSummary, TableSettings, compare, summarise,
@@ -63,11 +63,15 @@ pub fn run(session: &Session, command: &CompareCommand) -> Result<(), CliError> 
             "--converge is not used: compare runs a fixed number of passes, --passes"
         ));
     }
-    check_result_paths(
-        [&command.csv, &command.json, &command.markdown]
-            .into_iter()
-            .flatten(),
-    )?;
+    let scenes = command.scenes.iter();
+    scenes
+        .fold(FilePlan::default(), |plan, scene| {
+            plan.scene("SCENE", scene.as_ref())
+        })
+        .writes("--csv", &command.csv)
+        .writes("--json", &command.json)
+        .writes("--markdown", &command.markdown)
+        .check()?;
     with_threads(command.reading.threads, || {
         compare_all(session, command, &config)
     })
@@ -160,7 +164,8 @@ fn compare_all(
         };
         write_json(path, &file, &session.interrupted)?;
     }
-    session.say(format_args!("{markdown}"));
+    // The table is the result, not progress: --quiet leaves it.
+    print_line(format_args!("{markdown}"));
     Ok(())
 }
 

@@ -17,7 +17,7 @@ pub struct ErrorBudgetCommand {
     #[arg(long, value_name = "REF.json")]
     pub reference: PathBuf,
     /// Solves with different seeds, to tell chance from the rest.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(2..=1000), allow_negative_numbers = true)]
     pub seeds: u32,
     /// The figures for programs.
     #[arg(long, value_name = "FILE.json")]

@@ -3,8 +3,8 @@
 use super::error::CliError;
 use super::error_budget_args::ErrorBudgetCommand;
 use super::file_head::FileHead;
+use super::file_plan::FilePlan;
 use super::progress::Progress;
-use super::result_paths::check_result_paths;
 use super::scene_source::{load_scene, prepare};
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
@@ -18,7 +18,11 @@ use std::sync::Arc;
 /// Prints the table.
 pub fn run(session: &Session, command: &ErrorBudgetCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
-    check_result_paths(&command.json)?;
+    FilePlan::default()
+        .scene("SCENE", &command.scene.scene)
+        .reads("--reference", [&command.reference])
+        .writes("--json", &command.json)
+        .check()?;
     with_threads(command.scene.reading.threads, || {
         budget(session, command, &config)
     })

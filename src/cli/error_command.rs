@@ -1,14 +1,20 @@
 //! `certilux error`: how far a solution is from a reference.
 
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::logs;
 use super::reference_args::ErrorCommand;
 use super::scene_source::read_scene;
 use super::session::{Session, print_line};
-use crate::output::{read_ply, read_reference, solved_lights, true_faces, write_json};
+use super::solved_scene::scene_of_solution;
+use crate::output::{
+    read_ply, read_reference, reference_scene_hash, scene_hash, solved_lights, true_faces,
+    write_json,
+};
 use crate::reference::{FaceError, SolutionError, SolvedLights, TrueFace, solution_error};
-use crate::scene::{LoadConfig, Side};
+use crate::scene::{LoadConfig, Scene, Side};
 use serde::Serialize;
+use std::path::{Path, PathBuf};
 
 /// Faces that are listed one by one.
 const WORST: usize = 10;
@@ -19,12 +25,13 @@ const AREA_TOLERANCE: f64 = 1.0e-3;
 
 /// Prints the figures; fails where the error is above `--max`.
 pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
-    let records = read_reference(&command.reference).map_err(CliError::Solution)?;
     let path = if command.solution.is_dir() {
         command.solution.join("solution.ply")
     } else {
         command.solution.clone()
     };
+    plan(command, &path).check()?;
+    let records = read_reference(&command.reference).map_err(CliError::Solution)?;
     let mesh = read_ply(&path).map_err(CliError::Solution)?;
     let load = LoadConfig {
         clamp_reflectance: true,
@@ -35,6 +42,7 @@ pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
         .as_ref()
         .map(|source| read_scene(source, &load))
         .transpose()?;
+    check_scenes(command, &path, scene.as_ref())?;
     let truth = true_faces(&records, scene.as_ref())?;
     let lights = solved_lights(&mesh);
     let error = solution_error(&truth, &lights)?;
@@ -67,6 +75,62 @@ pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
         ))),
         _ => Ok(()),
     }
+}
+
+fn plan(command: &ErrorCommand, solution: &PathBuf) -> FilePlan {
+    let plan = match &command.scene {
+        Some(scene) => FilePlan::default().scene("--scene", scene),
+        None => FilePlan::default(),
+    };
+    plan.reads(
+        "the solution",
+        [solution, &solution.with_file_name("stats.json")],
+    )
+    .reads("the reference", [&command.reference])
+    .writes("--json", &command.json)
+}
+
+/// Refuses a scene that is not that of the reference or of the solution, where they say which was theirs, and a check of a
+/// solution by the reference of another scene; without a check that is worth a warning.
+fn check_scenes(
+    command: &ErrorCommand,
+    solution: &Path,
+    scene: Option<&Scene>,
+) -> Result<(), CliError> {
+    let [of_reference, of_solution] = [
+        reference_scene_hash(&command.reference),
+        scene_of_solution(solution),
+    ];
+    if let (Some(scene), Some(source)) = (scene, &command.scene) {
+        let hash = scene_hash(scene);
+        for (known, path, was) in [
+            (&of_reference, command.reference.as_path(), "measured"),
+            (&of_solution, solution, "solved"),
+        ] {
+            if known.as_ref().is_some_and(|known| *known != hash) {
+                return Err(CliError::Argument(format!(
+                    "--scene: {} is not the scene that {} was {was} from: its content differs",
+                    source.to_string_lossy(),
+                    path.display()
+                )));
+            }
+        }
+    }
+    match (of_reference, of_solution) {
+        (Some(reference), Some(solved)) if reference != solved => {
+            let text = format!(
+                "{} was measured from another scene than {} was solved from: their contents differ",
+                command.reference.display(),
+                solution.display()
+            );
+            if command.max.is_some() {
+                return Err(CliError::Argument(format!("--max: {text}")));
+            }
+            logs::warn(format_args!("{text}"));
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 /// Faces of both whose areas are not the same: of another scene, most likely.

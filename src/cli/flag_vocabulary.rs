@@ -7,8 +7,8 @@ use crate::job::{Setting, Vocabulary};
 use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, Command, CommandFactory, FromArgMatches};
 
-/// A flag that only solving commands have.
-const MARK_OF_SOLVING: &str = "gradient";
+/// A flag that only commands with all of [`SolveArgs`] have; those of a sweep are lists.
+const MARK_OF_SOLVING: &str = "quality";
 
 /// The optional flags of one command.
 pub struct FlagVocabulary {

@@ -18,6 +18,7 @@ mod error_budget_args;
 mod error_budget_command;
 mod error_command;
 mod file_head;
+mod file_plan;
 mod finished_solve;
 mod flag_vocabulary;
 mod folder_lock;

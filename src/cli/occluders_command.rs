@@ -2,6 +2,7 @@
 
 use super::args::OccludersCommand;
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::render::check_mesh_name;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
@@ -13,6 +14,11 @@ use std::time::Instant;
 /// Extracts the occluders and writes them.
 pub fn run(session: &Session, command: &OccludersCommand) -> Result<(), CliError> {
     check_mesh_name(&command.out, "obj")?;
+    FilePlan::default()
+        .scene("SCENE", &command.scene.scene)
+        .writes("--out", [&command.out])
+        .writes("--json", &command.json)
+        .check()?;
     let scene = load_scene(&command.scene)?;
     let config = command.occluders.config();
     let prepared = prepare(scene, &command.scene.reading, SolveConfig::default().seed)?;

@@ -1,6 +1,7 @@
 //! What a solve writes beside `solution.ply` and `stats.json`: pictures, and other forms of the solution.
 
 use super::args::{FormArg, SolveCommand};
+use super::checkpointing::FILE_NAME as CHECKPOINT_NAME;
 use super::error::CliError;
 use super::render::{DEFAULT_SIZE, render, write_picture};
 use super::session::Session;
@@ -8,6 +9,16 @@ use crate::output::{OutputsBlock, SolvedMesh, Staging, UpAxis, ViewConfig, write
 use clap::ValueEnum;
 use std::collections::BTreeMap;
 
+/// All that a solve may write into its folder, or remove from it.
+pub const RESULTS: [&str; 7] = [
+    "solution.ply",
+    "stats.json",
+    "view.exr",
+    "view.png",
+    "solution.glb",
+    "solution.vtu",
+    CHECKPOINT_NAME,
+];
 /// The pictures.
 const PICTURES: [&str; 2] = ["view.exr", "view.png"];
 /// The forms that are written on request.
@@ -37,6 +48,16 @@ pub fn asked_outputs(command: &SolveCommand) -> OutputsBlock {
         }
     }
     outputs
+}
+
+/// The names that a command will write under.
+pub fn written_names(command: &SolveCommand) -> Vec<&'static str> {
+    let asked = asked_outputs(command);
+    let optional = |name: &&str| PICTURES.contains(name) || FORMS.iter().any(|(_, n)| n == name);
+    let names = RESULTS.into_iter().filter(|name| *name != CHECKPOINT_NAME);
+    names
+        .filter(|name| !optional(name) || asked.contains_key(*name))
+        .collect()
 }
 
 /// Writes those of the files that a command asks for, and that are `wanted`.

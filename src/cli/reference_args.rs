@@ -1,7 +1,7 @@
 //! Arguments of `certilux reference` and `certilux error`.
 
 use super::solve_args::SceneArgs;
-use super::typed_number::parse_bound;
+use super::typed_number::{parse_bound, parse_whole};
 use crate::reference::ReferenceConfig;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ pub struct ReferenceCommand {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub faces: Option<u32>,
     /// Seed of every path.
-    #[arg(long, value_name = "S", default_value_t = ReferenceConfig::default().seed)]
+    #[arg(long, value_name = "S", default_value_t = ReferenceConfig::default().seed, value_parser = parse_whole::<u64>, allow_negative_numbers = true)]
     pub seed: u64,
 }
 
@@ -37,7 +37,8 @@ pub struct ReferenceCommand {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Compared is reflected radiosity, mean of the channels, weighted by area, over the faces of the reference that reflect.\n\
-                  Exit code 1 where the relative RMS error is above --max."
+                  Exit code 1 where the relative RMS error is above --max. A scene, or with --max a solution, of other content than the reference's \
+                  is refused."
 )]
 pub struct ErrorCommand {
     /// A folder that `certilux solve` wrote, or its solution.ply.

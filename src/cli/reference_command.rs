@@ -1,10 +1,10 @@
 //! `certilux reference`: unbiased radiosity of every source face, with error bars.
 
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::logs;
 use super::reference_args::ReferenceCommand;
 use super::reference_progress::ReferenceProgress;
-use super::result_paths::check_result_paths;
 use super::scene_source::load_scene;
 use super::session::Session;
 use super::solve_args::SceneArgs;
@@ -26,7 +26,10 @@ pub fn run(session: &Session, command: &ReferenceCommand) -> Result<(), CliError
         seed: command.seed,
     };
     config.validate().map_err(ReferenceError::from)?;
-    check_result_paths([&command.out])?;
+    FilePlan::default()
+        .scene("SCENE", &command.scene.scene)
+        .writes("--out", [&command.out])
+        .check()?;
     with_threads(command.scene.reading.threads, || {
         measure_and_write(session, command, &config)
     })

@@ -64,8 +64,12 @@ pub fn check_mesh_name(path: &Path, format: &str) -> Result<(), CliError> {
     if ending(path).as_deref() == Some(format) {
         return Ok(());
     }
+    let article = match format.starts_with('o') {
+        true => "an",
+        false => "a",
+    };
     Err(CliError::Argument(format!(
-        "--out {}: a {} file is written, whose name ends in .{format}",
+        "--out {}: {article} {} file is written, whose name ends in .{format}",
         path.display(),
         format.to_uppercase()
     )))

@@ -13,6 +13,12 @@ use std::path::Path;
 /// What stands before the name of a built-in scene.
 const BUILTIN: &str = "builtin:";
 
+/// The OBJ file that `source` names; none of a built-in scene.
+pub fn scene_path(source: &OsStr) -> Option<&Path> {
+    let is_builtin = source.to_str().is_some_and(|s| s.starts_with(BUILTIN));
+    (!is_builtin).then(|| Path::new(source))
+}
+
 /// Loads the scene that the command line names, and says what is odd about it.
 pub fn load_scene(arguments: &SceneArgs) -> Result<Scene, CliError> {
     load_named(&arguments.scene, &arguments.reading)

@@ -30,25 +30,20 @@ impl Session {
     /// A line of the summary on standard output; nothing with `--quiet`.
     pub fn say(&self, line: fmt::Arguments<'_>) {
         if !self.quiet {
-            tell(line);
+            print_line(line);
         }
     }
 }
 
-/// A line of a summary on standard output. Nothing is lost where nobody takes it: the results are in files.
-pub fn tell(line: fmt::Arguments<'_>) {
-    let _ = writeln!(io::stdout(), "{line}");
-}
-
-/// What was printed as a result and not taken, the first time.
+/// Why what was printed was not taken, the first time.
 static LOST: OnceLock<io::Error> = OnceLock::new();
 
-/// A line of results on standard output; [`check_printed`] tells whether all were taken.
+/// A line of results on standard output, with `--quiet` too; [`check_printed`] tells whether all were taken.
 pub fn print_line(line: fmt::Arguments<'_>) {
     print_text(format!("{line}\n").as_bytes());
 }
 
-/// Results on standard output.
+/// Text on standard output.
 pub fn print_text(text: &[u8]) {
     let mut out = io::stdout();
     if let Err(error) = out.write_all(text).and_then(|()| out.flush()) {
@@ -57,7 +52,7 @@ pub fn print_text(text: &[u8]) {
     }
 }
 
-/// Fails where results were printed and lost, as on a full disk. A reader that left early, such as `head`, had enough.
+/// Fails where something was printed and lost, as on a full disk; files are written by then. A reader that left early, such as `head`, had enough.
 pub fn check_printed() -> Result<(), CliError> {
     match LOST.get() {
         Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::System(format!(

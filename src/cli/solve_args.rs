@@ -1,6 +1,7 @@
 //! Flags of every command that reads a scene or solves one.
 
 use super::quality::Quality;
+use super::typed_number::parse_whole;
 use crate::occluder::OccluderConfig;
 use crate::scene::{Axes, LoadConfig, SidesMode};
 use crate::solve::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
@@ -32,7 +33,7 @@ pub struct ReadingArgs {
     #[arg(long, value_enum, default_value_t = AxesArg::Scene)]
     pub axes: AxesArg,
     /// Threads; 0 is one a processor. Results do not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads, allow_negative_numbers = true)]
     pub threads: usize,
 }
 
@@ -136,7 +137,7 @@ pub fn parse_stride(text: &str) -> Result<Stride, String> {
 #[derive(Clone, Debug, Args)]
 pub struct OccluderArgs {
     /// Occluders of a flat cluster at most.
-    #[arg(long, value_name = "N", default_value_t = OccluderConfig::default().per_cluster)]
+    #[arg(long, value_name = "N", default_value_t = OccluderConfig::default().per_cluster, value_parser = parse_whole::<usize>, allow_negative_numbers = true)]
     pub occluders: usize,
     /// Area of the smallest occluder over the squared diagonal of the scene.
     #[arg(long, value_name = "X", default_value_t = OccluderConfig::default().min_area, value_parser = parse_share, allow_negative_numbers = true)]
@@ -213,7 +214,12 @@ pub struct SolveArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub rays: Option<u32>,
     /// Stop after N passes: 1 is direct light, 2 adds the first reflection.
-    #[arg(long, value_name = "N", conflicts_with = "converge")]
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with = "converge",
+        allow_negative_numbers = true
+    )]
     pub passes: Option<u32>,
     /// Stop when the unshot power is below this fraction of the emitted; what further passes would bring is then
     /// added, the last one continued as a geometric series [default: 1e-3].
@@ -223,13 +229,13 @@ pub struct SolveArgs {
     #[arg(long, value_name = "X", default_value_t = SolveConfig::default().min_area, allow_negative_numbers = true)]
     pub min_area: f64,
     /// Seed of the sample points.
-    #[arg(long, value_name = "S", default_value_t = SolveConfig::default().seed)]
+    #[arg(long, value_name = "S", default_value_t = SolveConfig::default().seed, value_parser = parse_whole::<u64>, allow_negative_numbers = true)]
     pub seed: u64,
     /// Scale each pass so that all that is shot arrives.
     #[arg(long, value_enum, default_value_t = NormaliseArg::Auto)]
     pub normalise: NormaliseArg,
     /// Levels between queries for a guarantee (the paper's is 4), or auto: where they are likely to pay, and boxes of air.
-    #[arg(long, value_name = "K|auto", default_value = DEFAULT_STRIDE, value_parser = parse_stride)]
+    #[arg(long, value_name = "K|auto", default_value = DEFAULT_STRIDE, value_parser = parse_stride, allow_negative_numbers = true)]
     pub stride: Stride,
     /// What occluders are to be like.
     #[command(flatten)]

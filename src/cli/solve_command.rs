@@ -3,14 +3,17 @@
 use super::args::SolveCommand;
 use super::checkpointing::Checkpointing;
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::finished_solve::FinishedSolve;
 use super::folder_lock::FolderLock;
 use super::logs;
 use super::memory_guard::{MemoryGuard, check_estimate};
-use super::output_files::{asked_outputs, remove_other_outputs, write_outputs};
+use super::output_files::{
+    RESULTS, asked_outputs, remove_other_outputs, write_outputs, written_names,
+};
 use super::progress::Progress;
 use super::quality::Quality;
-use super::render::make_folder;
+use super::result_paths::make_result_folder;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_settings::settings;
@@ -30,6 +33,10 @@ use std::time::Instant;
 /// Solves a scene and writes the results.
 pub fn run(session: &Session, command: &SolveCommand) -> Result<(), CliError> {
     let config = command.solve.config()?;
+    FilePlan::default()
+        .scene("SCENE", &command.scene.scene)
+        .writes_into("--out", &command.out, RESULTS)
+        .check()?;
     with_threads(command.scene.reading.threads, || {
         solve_and_write(session, command, &config)
     })
@@ -75,7 +82,7 @@ fn solve_and_write(
     let estimate = MemoryEstimate::of(&scene, config, !command.no_view);
     check_estimate(estimate, command.max_memory)?;
     // A folder that cannot be made is better known before the solve than after; an invalid scene makes none.
-    make_folder(&command.out)?;
+    make_result_folder(&command.out, &written_names(command))?;
     let _lock = FolderLock::take(&command.out)?;
     let progress = Progress::new(session.quiet, Arc::clone(&session.interrupted), config);
     let prepared = session.stops_at_once(|| {

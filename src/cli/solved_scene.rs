@@ -1,9 +1,9 @@
-//! The scene behind a solved folder, and the settings that it was solved with.
+//! The scene behind a solved folder, or behind its solution, and the settings that it was solved with.
 
 use super::args::{Cli, Command, SolveCommand};
 use super::error::CliError;
 use super::scene_source::read_scene;
-use crate::output::scene_hash;
+use crate::output::{HashText, file_hash, scene_hash};
 use crate::scene::Scene;
 use clap::Parser;
 use serde_json::Value;
@@ -77,6 +77,16 @@ impl SolvedScene {
             scene,
         })
     }
+}
+
+/// Hash of the scene of a `solution.ply`; nothing where no `stats.json` beside it is of these bytes.
+pub fn scene_of_solution(solution: &Path) -> Option<HashText> {
+    let stats = std::fs::read(solution.with_file_name("stats.json")).ok()?;
+    let stats: Value = serde_json::from_slice(&stats).ok()?;
+    let content = &stats["content"];
+    let scene = content["scene"].as_str()?;
+    let hash = file_hash(solution).ok()?;
+    (content["solution"] == hash).then(|| scene.to_owned())
 }
 
 /// The command line that `settings` stand for.

@@ -1,6 +1,6 @@
 //! The few lines a person reads at the end of a solve.
 
-use super::session::tell;
+use super::session::print_line;
 use crate::output::StatsFile;
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     };
     let exchanges: u64 = stats.passes.iter().map(|p| p.exchanges).sum();
     let rays: u64 = stats.passes.iter().map(|p| p.rays).sum();
-    tell(format_args!(
+    print_line(format_args!(
         "{}: {} polygons, {} leaf patches, {} channel(s), Embree {}",
         stats.scene.path,
         stats.scene.polygons,
@@ -30,18 +30,18 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         stats.embree
     ));
     if stats.scene.degrees_askew > LEAST_ASKEW {
-        tell(format_args!(
+        print_line(format_args!(
             "its walls stand {:.2} degrees off the file's axes; boxes run along the walls",
             stats.scene.degrees_askew
         ));
     }
-    tell(format_args!(
+    print_line(format_args!(
         "{} pass(es), {exchanges} exchanges, {rays} rays, technique {}, {} thread(s)",
         stats.passes.len(),
         stats.technique,
         stats.threads
     ));
-    tell(format_args!(
+    print_line(format_args!(
         "power: {:.4} W emitted = {:.2} % absorbed + {:.2} % escaped (+- {:.2}) + {:.3} % unshot; imbalance {:+.3} %",
         power.emitted,
         share(power.absorbed),
@@ -51,13 +51,13 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
         100.0 * power.imbalance
     ));
     if power.extrapolated > 0.0 {
-        tell(format_args!(
+        print_line(format_args!(
             "of what is absorbed, {:.3} % of the emitted power is that of passes not made: the last one, continued as a geometric series",
             share(power.extrapolated)
         ));
     }
     if share(power.swallowed) >= LEAST_SWALLOWED {
-        tell(format_args!(
+        print_line(format_args!(
             "of what is absorbed, {:.2} % of the emitted power ends on backs that have no side, or between surfaces that touch",
             share(power.swallowed)
         ));
@@ -65,16 +65,16 @@ pub fn print_summary(stats: &StatsFile, files: &[PathBuf]) {
     if let Some(scales) = &stats.row_scales {
         let least = scales.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = scales.iter().copied().fold(0.0, f64::max);
-        tell(format_args!(
+        print_line(format_args!(
             "row normalisation: what arrived in a pass was scaled by {least:.6} to {greatest:.6}"
         ));
     }
     let s = &stats.seconds;
-    tell(format_args!(
+    print_line(format_args!(
         "seconds: load {:.2}, Embree {:.2}, hierarchy {:.2}, occluders {:.2}, solve {:.2}, output {:.2}",
         s.load, s.embree, s.cluster, s.occluders, s.solve, s.output
     ));
     for file in files {
-        tell(format_args!("wrote {}", file.display()));
+        print_line(format_args!("wrote {}", file.display()));
     }
 }

@@ -4,7 +4,7 @@ use super::quality::Quality;
 use super::solve_args::{
     NormaliseArg, SceneArgs, TechniqueArg, parse_angle, parse_share, parse_stride,
 };
-use super::typed_number::{parse_bound, parse_positive};
+use super::typed_number::{parse_bound, parse_positive, parse_whole};
 use crate::experiment::{SweepLists, SweepSettings};
 use crate::occluder::OccluderConfig;
 use crate::reference::ReferenceConfig;
@@ -44,7 +44,7 @@ pub struct SweepCommand {
     #[arg(long)]
     pub cross: bool,
     /// Solves of each row [default: 3, with --quick 1].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), allow_negative_numbers = true)]
     pub repeat: Option<u16>,
     /// Go on from the rows that DIR holds.
     #[arg(long)]
@@ -64,10 +64,16 @@ pub struct SweepCommand {
     )]
     pub rays: Vec<u32>,
     /// Levels between queries, or auto.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse_stride)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse_stride, allow_negative_numbers = true)]
     pub stride: Vec<Stride>,
     /// Occluders of a flat cluster at most.
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        value_parser = parse_whole::<usize>,
+        allow_negative_numbers = true
+    )]
     pub occluders: Vec<usize>,
     /// Areas of the smallest occluder over the squared diagonal of the scene.
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse_share, allow_negative_numbers = true)]
@@ -85,7 +91,7 @@ pub struct SweepCommand {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse_positive, allow_negative_numbers = true)]
     pub converge: Vec<f64>,
     /// Seed of the sample points of every solve.
-    #[arg(long, value_name = "S", default_value_t = SolveConfig::default().seed)]
+    #[arg(long, value_name = "S", default_value_t = SolveConfig::default().seed, value_parser = parse_whole::<u64>, allow_negative_numbers = true)]
     pub seed: u64,
     /// Scale each pass so that all that is shot arrives.
     #[arg(long, value_enum, default_value_t = NormaliseArg::Auto)]

@@ -1,9 +1,10 @@
 //! `certilux sweep`: speed against accuracy.
 
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::logs;
 use super::reference_command::measure_scene;
-use super::render::make_folder;
+use super::result_paths::make_result_folder;
 use super::scene_source::{load_scene, prepare};
 use super::session::Session;
 use super::solve_command::with_threads;
@@ -28,6 +29,16 @@ const REFERENCE: &str = "reference.json";
 /// The rows, as `--resume` reads them.
 const TABLE: &str = "sweep.json";
 
+/// The results.
+const FILES: [&str; 6] = [
+    "sweep.csv",
+    TABLE,
+    "error-seconds.svg",
+    "error-seconds.png",
+    "error-rays.svg",
+    "error-rays.png",
+];
+
 /// Solves the grid and writes table and plots.
 pub fn run(session: &Session, command: &SweepCommand) -> Result<(), CliError> {
     let points = command.points()?;
@@ -39,9 +50,20 @@ pub fn run(session: &Session, command: &SweepCommand) -> Result<(), CliError> {
         .reference_config()
         .validate()
         .map_err(ReferenceError::from)?;
+    FilePlan::default()
+        .scene("SCENE", &command.scene.scene)
+        .reads("--reference", &command.reference)
+        .writes_into("--out", &command.out, names(command))
+        .check()?;
     with_threads(command.scene.reading.threads, || {
         sweep_and_write(session, command, &points)
     })
+}
+
+/// What a sweep writes into its folder.
+fn names(command: &SweepCommand) -> Vec<&'static str> {
+    let own_reference = command.reference.is_none().then_some(REFERENCE);
+    FILES.into_iter().chain(own_reference).collect()
 }
 
 fn sweep_and_write(
@@ -57,7 +79,7 @@ fn sweep_and_write(
     if let Some(records) = &named {
         check_faces(records, &scene)?;
     }
-    make_folder(&command.out)?;
+    make_result_folder(&command.out, &names(command))?;
     let (reference, records) = match named {
         Some(records) => (command.reference.clone().unwrap_or_default(), records),
         None => (
@@ -318,14 +340,7 @@ impl Table<'_> {
                 }
             }
         }
-        for file in [
-            "sweep.csv",
-            TABLE,
-            "error-seconds.svg",
-            "error-seconds.png",
-            "error-rays.svg",
-            "error-rays.png",
-        ] {
+        for file in FILES {
             say(format_args!("wrote {}", self.folder.join(file).display()));
         }
     }

@@ -1,5 +1,7 @@
 //! Numbers as typed, with the reason where one is refused.
 
+use std::str::FromStr;
+
 /// A finite number.
 pub fn parse_finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -23,4 +25,10 @@ pub fn parse_positive(text: &str) -> Result<f64, String> {
         x if x > 0.0 => Ok(x),
         _ => Err("a positive number is needed".to_owned()),
     }
+}
+
+/// A whole number, such as a count or a seed.
+pub fn parse_whole<T: FromStr>(text: &str) -> Result<T, String> {
+    let reason = "a whole number from 0 is needed, and not above what 64 bits hold";
+    text.parse().map_err(|_| reason.to_owned())
 }

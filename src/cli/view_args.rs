@@ -79,7 +79,7 @@ pub struct ViewCommand {
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]
     pub greatest: Option<f64>,
     /// Threads; 0 is one a processor. Pictures do not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads, allow_negative_numbers = true)]
     pub threads: usize,
 }
 

@@ -1,9 +1,10 @@
 //! `certilux view`: a picture of a solved folder from any place.
 
 use super::error::CliError;
+use super::file_plan::FilePlan;
 use super::logs;
 use super::render::{PictureFormat, write_picture};
-use super::session::Session;
+use super::session::{Session, print_line};
 use super::solve_command::with_threads;
 use super::view_args::{ShowArg, ViewCommand};
 use super::view_exhibit::{Subject, exhibit};
@@ -15,6 +16,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Renders DIR/solution.ply.
 pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
     check(command)?;
+    let results = ["solution.ply", "stats.json"].map(|name| command.solved.join(name));
+    let plan = match &command.scene {
+        Some(scene) => FilePlan::default().scene("--scene", scene),
+        None => FilePlan::default(),
+    };
+    plan.reads("DIR", &results)
+        .reads("--reference", &command.reference)
+        .writes("--out", [&command.out])
+        .check()?;
     with_threads(command.threads, || take(session, command))
 }
 
@@ -83,7 +93,7 @@ fn take(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
                 &device,
             )?;
             if let Some(scale) = &shown.scale {
-                session.say(format_args!("{}", scale.describe()));
+                print_line(format_args!("{}", scale.describe()));
             }
             shown.write_png(&command.out, &session.interrupted)?;
         }

@@ -4,7 +4,7 @@ use super::error::CliError;
 use super::logs;
 use super::ray_counter::count_rays;
 use super::scene_source::{prepare, read_scene};
-use super::session::Session;
+use super::session::{Session, print_line};
 use super::solved_scene::SolvedScene;
 use super::view_args::{ShowArg, ViewCommand};
 use crate::embree::Device;
@@ -60,7 +60,7 @@ impl Subject {
                     path.display()
                 ));
             }
-            session.say(format_args!("{} rays through Embree", counted.total));
+            print_line(format_args!("{} rays through Embree", counted.total));
             return Ok(Self {
                 mesh: counted.mesh,
                 matter: Matter::Rays(counted.density),
@@ -111,7 +111,7 @@ pub fn exhibit(
     };
     let shown = match (command.show, matter) {
         (_, Matter::Error(error)) => {
-            session.say(format_args!(
+            print_line(format_args!(
                 "relative RMS error {:.4} %, bias {:+.4} %; faces that the reference does not hold are grey",
                 100.0 * error.relative_rms,
                 100.0 * error.bias
@@ -127,7 +127,7 @@ pub fn exhibit(
             let count = command.clusters as usize;
             let shown = exhibit.clusters(&prepared.scene, &prepared.hierarchy, count);
             shown.map(|(shown, clusters)| {
-                session.say(format_args!("{clusters} clusters"));
+                print_line(format_args!("{clusters} clusters"));
                 shown
             })
         }
@@ -135,7 +135,7 @@ pub fn exhibit(
             let (config, prepared) = prepare_again(session, *solved)?;
             let set = session
                 .stops_at_once(|| extract_occluders(&prepared.scene, &prepared.hierarchy, &config));
-            session.say(format_args!("{} occluders", set.occluders.len()));
+            print_line(format_args!("{} occluders", set.occluders.len()));
             exhibit.occluders(&light, tone_map, &prepared.scene, &set, device)?
         }
         (ShowArg::Mesh, Matter::Light) => exhibit.mesh(&light, tone_map),

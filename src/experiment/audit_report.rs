@@ -54,6 +54,7 @@ pub enum Flaw {
         /// Index of the occluder.
         occluder: u32,
         /// Its node of the hierarchy; none of a solid.
+        #[serde(skip_serializing_if = "Option::is_none")]
         node: Option<u32>,
         /// A point of its plane, or of its surface, that nothing covers, in the file's units.
         at: [f64; 3],
@@ -83,6 +84,7 @@ pub enum Flaw {
         /// Its ends, in the file's units.
         segment: [[f64; 3]; 2],
         /// The polygon that surely blocks it; none where it is surely clear.
+        #[serde(skip_serializing_if = "Option::is_none")]
         blocked_by: Option<u32>,
     },
 }
@@ -97,6 +99,7 @@ pub struct ClaimRecord {
     /// The other.
     pub receiver: ElementRecord,
     /// The occluder; none claims full visibility.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub occluder: Option<u32>,
 }
 

@@ -117,6 +117,9 @@ fn with_faults(prepared: PreparedScene, faults: Faults) -> PreparedScene {
 }
 
 fn finds(report: &AuditReport, kind: fn(&Flaw) -> bool) -> bool {
+    // What is written holds no null.
+    let text = serde_json::to_string(report).expect("plain data");
+    assert!(!text.contains("null"), "{text}");
     report.is_refuted() && report.flaws.iter().any(kind)
 }
 

@@ -7,7 +7,8 @@
 use crate::solve::{
     Observer, PassStatistics, PreparedScene, SolveConfig, SolveError, Solver, Technique,
 };
-use serde::Serialize;
+use serde::ser::Error as _;
+use serde::{Serialize, Serializer};
 
 /// What to compare.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +64,8 @@ pub struct ComparisonRow {
     pub technique: Technique,
     /// Time of the pass's exchanges; pushing and pulling are the same for all and left out.
     pub seconds: Times,
-    /// Its counts.
+    /// Its counts. A trial has no time of its own beside `seconds`, and shoots nothing that could be left unshot.
+    #[serde(serialize_with = "counts_alone")]
     pub counts: PassStatistics,
     /// Of all exchanges of `normal`, those whose rays were all blocked, in percent.
     pub max_occlusion_percent: f64,
@@ -75,6 +77,16 @@ pub struct ComparisonRow {
     pub visibility_cost_removed_percent: f64,
     /// Median time of `normal` over this one's.
     pub speedup: f64,
+}
+
+/// The counts without what only a pass of a solve has.
+fn counts_alone<S: Serializer>(counts: &PassStatistics, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut tree = serde_json::to_value(counts).map_err(S::Error::custom)?;
+    if let Some(entries) = tree.as_object_mut() {
+        entries.remove("seconds");
+        entries.remove("unshot");
+    }
+    tree.serialize(serializer)
 }
 
 /// Compares techniques on a scene that is prepared with guarantees for all of them.
@@ -209,8 +221,9 @@ pub struct ComparisonSummary {
     pub worst: f64,
     /// The greatest.
     pub best: f64,
-    /// Geometric mean of the rays of `normal` over this technique's (at least one ray is counted).
-    pub fewer_rays: f64,
+    /// Geometric mean of the rays of `normal` over this technique's; none where one of the two casts no ray.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fewer_rays: Option<f64>,
 }
 
 /// Sums rows up, technique by technique in the order of their first rows; `normal` is left out.
@@ -231,13 +244,13 @@ pub fn summarise(rows: &[ComparisonRow]) -> Vec<ComparisonSummary> {
                 chosen.map(|r| r.speedup).collect()
             };
             let all = speedups(&|_| true);
-            let fewer: Vec<f64> = of
+            let fewer: Option<Vec<f64>> = of
                 .iter()
                 .filter_map(|r| {
                     let normal = rows.iter().find(|n| {
                         n.technique == Technique::Normal && n.scene == r.scene && n.pass == r.pass
                     })?;
-                    Some(normal.counts.rays.max(1) as f64 / r.counts.rays.max(1) as f64)
+                    Some(times_fewer(normal.counts.rays, r.counts.rays))
                 })
                 .collect();
             ComparisonSummary {
@@ -248,10 +261,19 @@ pub fn summarise(rows: &[ComparisonRow]) -> Vec<ComparisonSummary> {
                 speedup_later: geometric_mean(&speedups(&|r| r.pass > 1)),
                 worst: all.iter().copied().fold(f64::INFINITY, f64::min),
                 best: all.iter().copied().fold(0.0, f64::max),
-                fewer_rays: geometric_mean(&fewer),
+                fewer_rays: fewer.map(|ratios| geometric_mean(&ratios)),
             }
         })
         .collect()
+}
+
+/// How many times fewer rays are cast than by `normal`; none where the ratio has no logarithm.
+fn times_fewer(normal: u64, own: u64) -> Option<f64> {
+    match (normal, own) {
+        (0, 0) => Some(1.0),
+        (0, _) | (_, 0) => None,
+        _ => Some(normal as f64 / own as f64),
+    }
 }
 
 /// Geometric mean of positive numbers; 0 of none.
@@ -273,6 +295,13 @@ mod tests {
         assert_eq!(times.median, 3.0);
         assert_eq!((times.lower_quartile, times.upper_quartile), (2.0, 4.0));
         assert_eq!(Times::new(vec![1.0, 2.0]).median, 1.5);
+    }
+
+    #[test]
+    fn no_rays_are_no_number_of_times_fewer() {
+        assert_eq!(times_fewer(30, 10), Some(3.0));
+        assert_eq!(times_fewer(0, 0), Some(1.0));
+        assert_eq!((times_fewer(30, 0), times_fewer(0, 30)), (None, None));
     }
 
     #[test]

@@ -143,7 +143,7 @@ pub struct BaselineRow {
 /// A recorded run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Baseline {
-    /// Version of this layout: 1.
+    /// Version of this layout: [`Baseline::FORMAT`].
     pub format: u32,
     /// The suite.
     pub suite: String,
@@ -154,7 +154,7 @@ pub struct Baseline {
     /// The rows.
     pub rows: Vec<BaselineRow>,
     /// Instructions, where they were counted.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instructions: Option<InstructionCounts>,
 }
 
@@ -209,6 +209,9 @@ const LEAST_TOLERANCE: f64 = 0.4;
 const LEAST_SECONDS: f64 = 0.03;
 
 impl Baseline {
+    /// Version of the layout.
+    pub const FORMAT: u32 = 1;
+
     /// Takes over the ratios of another run of the same suite where they are smaller: what disturbs a run makes it
     /// slower, and rarely the same rows twice.
     pub fn keep_faster(&mut self, other: &Self) {

@@ -17,7 +17,7 @@ pub struct BatchFile {
     pub jobs_at_once: usize,
     /// Threads of all of them together.
     pub threads: usize,
-    /// True once nothing runs or waits any more.
+    /// True once every job has come to its end; false after an interruption.
     pub finished: bool,
     /// Jobs by status.
     pub counts: BatchCounts,

@@ -47,7 +47,8 @@ pub fn comparison_csv(rows: &[ComparisonRow]) -> String {
     text
 }
 
-/// The table and its summary as Markdown. Counts are in millions; the paper's figures stand in brackets.
+/// The table and its summary as Markdown. Counts are in millions; the paper's figures stand in round brackets, quartiles
+/// in square ones.
 pub fn comparison_markdown(
     rows: &[ComparisonRow],
     summaries: &[ComparisonSummary],
@@ -55,7 +56,8 @@ pub fn comparison_markdown(
 ) -> String {
     let mut text = format!(
         "{about}\n\n\
-         Counts in millions; in brackets what the paper printed. `speed-up` is the median time of `normal` over the \
+         Counts in millions; in round brackets what the paper printed. `seconds` are medians, with the quartiles in square \
+         brackets; the paper's are left out. `speed-up` is the median time of `normal` over the \
          row's; `cost removed` the time saved over the time that `unoccluded` saves. Every technique's pass k starts \
          from the state of `normal` after pass k - 1. `unoccluded` sets every visibility to 1 and is there to show \
          what visibility costs.\n\n\
@@ -152,7 +154,7 @@ pub fn comparison_markdown(
     for s in summaries {
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {:.2} | {:.2} | {:.1} |",
+            "| {} | {} | {} | {} | {} | {:.2} | {:.2} | {} |",
             s.technique.name(),
             s.rows,
             mean(s.speedup),
@@ -160,7 +162,7 @@ pub fn comparison_markdown(
             mean(s.speedup_later),
             s.worst,
             s.best,
-            s.fewer_rays
+            s.fewer_rays.map_or("-".to_owned(), |x| format!("{x:.1}"))
         );
     }
     text

@@ -89,6 +89,20 @@ impl ReferenceRequest {
     }
 }
 
+/// Hash of the scene that the reference in a file was measured of; nothing where the file does not say.
+pub fn reference_scene_hash(path: &Path) -> Option<HashText> {
+    #[derive(Deserialize)]
+    struct Meta {
+        scene_hash: HashText,
+    }
+    #[derive(Deserialize)]
+    struct File {
+        meta: Meta,
+    }
+    let file: File = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    Some(file.meta.scene_hash)
+}
+
 /// Area-weighted means of radiosity and of its standard error, mean of the channels, in W/m2.
 pub fn mean_radiosity(faces: &[FaceRadiosity]) -> [f64; 2] {
     let mut sums = [0.0; 3];

@@ -51,6 +51,12 @@ impl Assets<'_> {
     }
 }
 
+/// The file that `name` stands for in `folder`, if one of its forms exists.
+pub(super) fn existing_file(folder: &Path, name: &str) -> Option<PathBuf> {
+    let paths = forms(name).into_iter().map(|form| folder.join(form));
+    paths.into_iter().find(|path| path.is_file())
+}
+
 /// As written; with slashes; the last part alone.
 fn forms(name: &str) -> Vec<String> {
     let slashes = name.replace('\\', "/");

@@ -18,6 +18,9 @@ pub enum Reason {
     /// Nothing stands at the path.
     #[error("there is no such file")]
     Missing,
+    /// The path is empty.
+    #[error("an OBJ file is needed, and its name is empty")]
+    Nameless,
     /// The path is a directory.
     #[error("is a directory, not a file")]
     Directory,
@@ -182,6 +185,7 @@ impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
             Some(line) => write!(f, "{}:{}: {}", self.file, line, self.reason),
+            None if self.file.is_empty() => write!(f, "{}", self.reason),
             None => write!(f, "{}: {}", self.file, self.reason),
         }
     }
@@ -264,8 +268,14 @@ fn range(count: usize) -> String {
     }
 }
 
+/// As in an MTL file; numbers that would be hundreds of digits long have exponents.
 fn colour(value: &[f64; 3]) -> String {
-    format!("{} {} {}", value[0], value[1], value[2])
+    let short = 1.0e-5..1.0e15;
+    let text = |x: f64| match x == 0.0 || short.contains(&x.abs()) {
+        true => format!("{x}"),
+        false => format!("{x:e}"),
+    };
+    value.map(text).join(" ")
 }
 
 fn texture_note(texture: &Option<String>) -> String {
@@ -290,6 +300,12 @@ fn library_note(names_library: bool, missing: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn colours_of_any_size_are_short() {
+        assert_eq!(colour(&[0.0, 0.25, 100.0]), "0 0.25 100");
+        assert_eq!(colour(&[1.0e300, -2.5e-9, 1.0e15]), "1e300 -2.5e-9 1e15");
+    }
 
     #[test]
     fn display_is_one_line_a_defect_and_is_cut() {

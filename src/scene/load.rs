@@ -36,6 +36,9 @@ pub fn load_file(path: &Path, config: &LoadConfig) -> Result<Scene, LoadError> {
             _ => Reason::Unreadable(describe(&e)),
         })
     };
+    if path.as_os_str().is_empty() {
+        return Err(refuse(Reason::Nameless));
+    }
     let found = std::fs::metadata(path).map_err(unreadable)?;
     if found.is_dir() {
         return Err(refuse(Reason::Directory));

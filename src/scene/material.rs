@@ -219,6 +219,9 @@ fn ignored_text(kind: &Ignored) -> String {
             "relief (bump, norm, disp, decal) is ignored: surfaces stay as modelled".into()
         }
         Ignored::Metallic => "metallic reflection (Pm) is ignored: surfaces are diffuse".into(),
+        Ignored::Coating => {
+            "sheen and clear coat (Ps, Pc) are ignored: surfaces are diffuse".into()
+        }
         Ignored::TextureOption(option) => format!("texture option {option} is ignored"),
         Ignored::Unknown(keyword) => format!("unknown material property `{keyword}` is ignored"),
     }

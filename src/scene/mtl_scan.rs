@@ -40,8 +40,10 @@ pub(super) enum Ignored {
     Transmission,
     /// `bump`, `norm`, `disp`: the surface stays as it is modelled.
     Relief,
-    /// `Pm` and its like: the physically based extension.
+    /// `Pm`, `map_Pm`, of the physically based extension.
     Metallic,
+    /// `Ps`, `Pc`, of the same extension: the surface has one layer.
+    Coating,
     /// An option of a texture statement.
     TextureOption(String),
     /// Anything else.
@@ -49,7 +51,7 @@ pub(super) enum Ignored {
 }
 
 /// Statements without a part in a diffuse surface, whatever their value.
-const SILENT: [&[u8]; 15] = [
+const SILENT: [&[u8]; 17] = [
     b"Ka",
     b"Ns",
     b"Ni",
@@ -58,12 +60,14 @@ const SILENT: [&[u8]; 15] = [
     b"map_Ka",
     b"map_Ns",
     b"Pr",
-    b"Ps",
-    b"Pc",
     b"Pcr",
     b"aniso",
     b"anisor",
+    b"map_Ni",
     b"map_Pr",
+    b"map_Pcr",
+    b"map_aniso",
+    b"map_anisor",
     b"map_aat",
 ];
 
@@ -167,6 +171,11 @@ impl Scanner {
                     ignore(Ignored::Transparency);
                 }
             }
+            b"Ps" | b"Pc" => {
+                if matches(statement, defects, |v| v != 0.0) {
+                    ignore(Ignored::Coating);
+                }
+            }
             b"Pm" => {
                 if matches(statement, defects, |v| v != 0.0) {
                     ignore(Ignored::Metallic);
@@ -176,7 +185,8 @@ impl Scanner {
             b"map_Ks" | b"refl" | b"map_refl" => ignore(Ignored::Specular),
             b"bump" | b"map_bump" | b"map_Bump" | b"norm" | b"map_norm" | b"disp" | b"map_disp"
             | b"decal" => ignore(Ignored::Relief),
-            b"map_Pm" | b"map_Ps" => ignore(Ignored::Metallic),
+            b"map_Pm" => ignore(Ignored::Metallic),
+            b"map_Ps" | b"map_Pc" => ignore(Ignored::Coating),
             keyword if SILENT.contains(&keyword) => {
                 matches(statement, defects, |_| false);
             }
@@ -280,12 +290,12 @@ mod tests {
     #[test]
     fn default_values_of_ignored_properties_are_not_worth_a_word() {
         let (materials, defects) = scan(
-            b"newmtl a\nNs 10\nNi 1.5\nd 1\nTr 0\nTf 1 1 1\nillum 2\nKs 0 0 0\nKa 1 1 1\nPm 0\n",
+            b"newmtl a\nNs 10\nNi 1.5\nd 1\nTr 0\nTf 1 1 1\nillum 2\nKs 0 0 0\nKa 1 1 1\nPm 0\nPs 0\nPc 0\nPr 0.3\naniso 0.5\n",
         );
         assert_eq!(defects, []);
         assert!(materials[0].ignored.is_empty(), "{materials:?}");
         let (materials, _) =
-            scan(b"newmtl a\nd 0.5\nTr 0.5\nKs 0 0 0.1\nbump -bm 1 b.png\nglow 3\n");
+            scan(b"newmtl a\nd 0.5\nTr 0.5\nKs 0 0 0.1\nbump -bm 1 b.png\nglow 3\nPc 0.1\n");
         let kinds: Vec<_> = materials[0].ignored.clone().into_iter().collect();
         assert_eq!(
             kinds,
@@ -293,6 +303,7 @@ mod tests {
                 (Ignored::Transparency, 2),
                 (Ignored::Specular, 4),
                 (Ignored::Relief, 5),
+                (Ignored::Coating, 7),
                 (Ignored::Unknown("glow".into()), 6)
             ]
         );

@@ -53,6 +53,7 @@ fn what_cannot_be_parsed_ends_with_two() {
         "clusters room.obj --out c.ply --count 0",
         "clusters room.obj --out c.png",
         "occluders room.obj --out o.ply",
+        "audit room.obj --rays-per-claim 0",
     ] {
         let run = folder.line(line);
         run.ends_with(2, line);
@@ -97,4 +98,52 @@ fn an_unknown_builtin_scene_is_answered_with_the_nearest_names() {
         folder.line(line).ends_with(2, line);
     }
     assert!(folder.names(".").is_empty(), "{:?}", folder.names("."));
+}
+
+/// A number below zero is a value of the flag before it, and is told why it is none.
+#[test]
+fn negative_numbers_are_answered_with_what_is_needed() {
+    let folder = Folder::new();
+    write_room(&folder);
+    for (line, words) in [
+        ("solve room.obj --out x --seed -1", "whole number from 0"),
+        ("solve room.obj --out x --threads -1", "from 0 to"),
+        (
+            "solve room.obj --out x --occluders -1",
+            "whole number from 0",
+        ),
+        ("solve room.obj --out x --passes -1", "is not in 0.."),
+        ("solve room.obj --out x --stride -1", "whole number from 1"),
+        ("audit room.obj --claims -1", "whole number from 1"),
+        ("audit room.obj --rays-per-claim -1", "is not in 1.."),
+        ("audit room.obj --brute-force -1", "whole number from 0"),
+        (
+            "sweep room.obj --out x --occluders 2,-1",
+            "whole number from 0",
+        ),
+        ("sweep room.obj --out x --repeat -1", "is not in 1.."),
+        (
+            "reference room.obj --out x.json --seed -1",
+            "whole number from 0",
+        ),
+        ("compare room.obj --repeat -1", "is not in 1.."),
+        ("bench --threads -1", "from 0 to"),
+    ] {
+        let run = folder.line(line);
+        run.ends_with(2, line).says(&["invalid value '-1'", words]);
+        assert!(!run.stderr.contains("tip:"), "{line}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn names_that_are_none_are_not_printed_as_if_they_were() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let run = folder.run(&["solve", "", "--out", "x"]);
+    run.ends_with(2, "no name").says(&["its name is empty"]);
+    assert!(!run.stderr.contains(": :"), "{}", run.stderr);
+    folder
+        .line("occluders room.obj --out o.ply")
+        .ends_with(2, "ending")
+        .says(&["an OBJ file is written"]);
 }

@@ -378,6 +378,9 @@ fn a_stopped_batch_goes_on_where_it_was() {
         run.ends_with(130, "stopped").says(&["interrupted", words]);
         let want = want(&[("a", "interrupted"), ("b", "waiting"), ("c", "waiting")]);
         assert_eq!(statuses(&folder), want);
+        let file = fs::read(folder.path("out/batch.json")).unwrap();
+        let file: serde_json::Value = serde_json::from_slice(&file).unwrap();
+        assert_eq!(file["finished"], false);
         assert!(folder.path("out/a/solve.checkpoint").exists());
         assert!(!folder.path("out/b").exists());
     }

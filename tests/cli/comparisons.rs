@@ -59,11 +59,84 @@ fn techniques_are_compared_on_the_same_work() {
         json["rows"][0]["seconds"]["all"].as_array().unwrap().len(),
         2
     );
+    for row in json["rows"].as_array().unwrap() {
+        let counts = row["counts"].as_object().unwrap();
+        assert!(counts["exchanges"].as_u64().unwrap() > 0);
+        assert!(!counts.contains_key("seconds") && !counts.contains_key("unshot"));
+    }
+    // No rays are no number of times fewer; blockers may need none either.
+    let casts_none = |technique: &serde_json::Value| {
+        let mut rows = json["rows"].as_array().unwrap().iter();
+        rows.any(|row| row["technique"] == *technique && row["counts"]["rays"] == 0)
+    };
+    let summary = json["summary"].as_array().unwrap();
+    assert_eq!(summary.len(), names.len() - 1);
+    for row in summary {
+        let is_left_out = row.get("fewer_rays").is_none();
+        assert_eq!(is_left_out, casts_none(&row["technique"]), "{row}");
+    }
+    let table = fs::read_to_string(folder.path("t.md")).unwrap();
+    assert!(table.contains("| cornell | 1 | normal |"));
+    let last = table.lines().rfind(|line| line.contains("unoccluded"));
+    assert!(last.unwrap().ends_with("| - |"), "{table}");
+    folder
+        .line("report . --out report.html")
+        .ends_with(0, "a report without the number");
+}
+
+/// What is asked for is printed; what is quiet is the progress.
+#[test]
+fn the_table_is_no_progress() {
+    let folder = Folder::new();
+    let run = folder.line("compare builtin:cornell --epsilon 1e-2 --passes 1 --repeat 1 --quiet");
+    run.ends_with(0, "compare");
     assert!(
-        fs::read_to_string(folder.path("t.md"))
-            .unwrap()
-            .contains("| cornell | 1 | normal |")
+        run.stdout.contains("| cornell | 1 | normal |"),
+        "{}",
+        run.stdout
     );
+    let run = folder.line("audit builtin:cornell --epsilon 1e-2 --claims 10 --detection -q");
+    run.ends_with(0, "audit");
+    for words in [
+        "claims audited",
+        "visibility claims tested against every polygon",
+        "contradictions that stand: 0",
+        "pass  exchanges",
+    ] {
+        assert!(run.stdout.contains(words), "{}", run.stdout);
+    }
+}
+
+/// A machine without valgrind records all but instructions, and checks against what it recorded.
+#[test]
+fn a_baseline_needs_no_instructions() {
+    let folder = Folder::new();
+    let line = "bench --suite smoke --no-instructions --quiet";
+    folder
+        .line(&format!("{line} --record b.json"))
+        .ends_with(0, "record");
+    let text = fs::read_to_string(folder.path("b.json")).unwrap();
+    assert!(!text.contains("instructions"), "{text}");
+    // Times are not what is tested: no run is as slow as this.
+    let mut other: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for row in other["rows"].as_array_mut().unwrap() {
+        row["ratio"] = 1.0e6.into();
+    }
+    folder.write("slow.json", other.to_string());
+    folder
+        .line(&format!("{line} --check slow.json"))
+        .ends_with(0, "check");
+    // A count that differs is a regression, whose report says all that was checked.
+    other["rows"][0]["counts"]["rays"] = 1.into();
+    folder.write("other.json", other.to_string());
+    folder
+        .line(&format!("{line} --check other.json"))
+        .ends_with(1, "regression")
+        .says(&["1 regressions", "counts exactly", "time ratios within"]);
+    let run = folder.line("bench --suite ci --no-instructions --check b.json");
+    run.ends_with(2, "another suite")
+        .says(&["--suite smoke", "--suite ci"]);
+    assert_eq!(run.stdout, "", "nothing has run");
 }
 
 #[test]

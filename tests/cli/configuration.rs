@@ -158,3 +158,51 @@ fn the_command_line_may_end_its_flags_and_hold_other_flags_first() {
     folder.write("certilux.toml", "[solve]\nepsilom = 1\n");
     folder.line("solve --help").ends_with(0, "help");
 }
+
+/// Lists have the names of numbers, and no quality stands beside them.
+#[test]
+fn a_sweep_has_defaults_like_a_solve() {
+    let folder = folder("[sweep]\nepsilon = [3e-3, 1e-2]\n");
+    let sweep = |more: &str, variables: &[(&str, &str)]| {
+        let line = format!(
+            "sweep room.obj --out swept --quick --reference-seconds 0.1 --gradient 0.1 --min-area 1e-3 {more}"
+        );
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let mut command = folder.command(&words);
+        command.envs(variables.iter().copied());
+        Outcome::of(command.output().unwrap())
+    };
+    let rows = || -> serde_json::Value {
+        let text = std::fs::read(folder.path("swept/sweep.json")).unwrap();
+        serde_json::from_slice(&text).unwrap()
+    };
+    let variables = [
+        ("CERTILUX_THREADS", "1"),
+        ("CERTILUX_SEED", "7"),
+        ("CERTILUX_TECHNIQUE", "normal"),
+        ("CERTILUX_RAYS", "8"),
+        ("CERTILUX_PASSES", "1"),
+    ];
+    sweep("", &variables).ends_with(0, "variables");
+    let found = rows();
+    assert_eq!(found["key"]["seed"], 7);
+    assert_eq!(found["key"]["threads"], 1);
+    let epsilons = |found: &serde_json::Value| -> Vec<f64> {
+        let rows = found["rows"].as_array().unwrap();
+        let epsilons = rows
+            .iter()
+            .map(|row| row["settings"]["epsilon"].as_f64().unwrap());
+        epsilons.collect()
+    };
+    assert_eq!(epsilons(&found), [3e-3, 1e-2]);
+    let above = [
+        ("CERTILUX_EPSILON", "5e-3"),
+        ("CERTILUX_TECHNIQUE", "normal"),
+    ];
+    sweep("--rays 8", &above).ends_with(0, "a variable above the file");
+    assert_eq!(epsilons(&rows()), [5e-3]);
+    for (name, value) in [("CERTILUX_EPSILON", "-1"), ("CERTILUX_RAYS", "0")] {
+        let run = sweep("", &[(name, value)]);
+        run.ends_with(2, name).says(&[name]);
+    }
+}

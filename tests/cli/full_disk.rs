@@ -145,26 +145,35 @@ fn a_disk_that_runs_full() {
     }
 }
 
-/// Results that are printed are either taken or missed; a summary is neither, and a reader that left had enough.
+/// What is printed is either taken or missed, files or none; a reader that left had enough.
 #[cfg(target_os = "linux")]
 #[test]
 fn printed_results_that_are_lost_are_an_error() {
     let (folder, _) = solved();
-    for (line, code) in [
-        ("completions bash", 3),
-        ("generate --list", 3),
-        ("generate cornell --out scenes", 0),
-        ("solve room.obj --out results --no-view --epsilon 1e-2", 0),
-    ] {
+    let into_full_disk = |line: &str| {
         let words: Vec<&str> = line.split(' ').collect();
         let full = fs::OpenOptions::new().write(true).open("/dev/full");
         let mut command = folder.command(&words);
-        let run = Outcome::of(command.stdout(full.unwrap()).output().unwrap());
-        run.ends_with(code, line);
-        if code != 0 {
-            run.says(&["cannot write to standard output"]);
-        }
+        Outcome::of(command.stdout(full.unwrap()).output().unwrap())
+    };
+    for line in [
+        "completions bash",
+        "generate --list",
+        "generate cornell --out scenes",
+        "solve room.obj --out results --no-view --epsilon 1e-2",
+        "compare room.obj --epsilon 1e-2 --passes 1 --repeat 1 --quiet --csv table.csv",
+        "audit room.obj --epsilon 1e-2 --claims 10 --quiet",
+        "reference room.obj --out ref.json --error 0.5",
+        "view results --out view.png --size 32x24",
+    ] {
+        (into_full_disk(line).ends_with(3, line)).says(&["cannot write to standard output"]);
     }
+    // The files are whole by then.
+    for file in ["scenes/cornell.obj", "table.csv", "ref.json", "view.png"] {
+        assert!(folder.path(file).is_file(), "{file}");
+    }
+    let quiet = "generate cornell --out scenes --quiet";
+    into_full_disk(quiet).ends_with(0, "nothing is printed");
     // A pipe whose reader is gone before anything is written.
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);

@@ -16,6 +16,7 @@ mod manual;
 mod messages;
 mod not_a_number;
 mod other_commands;
+mod overwriting;
 mod references;
 mod reports;
 mod results;

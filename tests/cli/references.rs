@@ -1,6 +1,6 @@
 //! `reference` and `error`.
 
-use crate::command::{COARSE, Folder, write_room};
+use crate::command::{COARSE, Folder, ROOM, write_room};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -166,6 +166,44 @@ fn faces_of_another_size_are_named() {
         .line("error solved ref.json")
         .ends_with(0, "another scene")
         .says(&["1 of 2 faces have another area", "same scene? 5"]);
+}
+
+/// A scene that is not the reference's or the solution's gives figures of neither.
+#[test]
+fn another_scene_is_refused() {
+    let folder = measured_room();
+    let brighter = ROOM[1].replace("Ke 10 10 10", "Ke 20 20 20");
+    folder.write("other.obj", ROOM[0].replace("room.mtl", "other.mtl"));
+    folder.write("other.mtl", brighter);
+    let line = "error solved ref.json";
+    folder
+        .line(&format!("{line} --scene room.obj"))
+        .ends_with(0, "its scene");
+    folder
+        .line(&format!("{line} --scene other.obj"))
+        .ends_with(2, "another scene")
+        .says(&["--scene", "other.obj", "ref.json", "its content differs"]);
+    folder.write("bare.json", by_hand(false).to_string());
+    folder
+        .line("error solved bare.json --scene other.obj")
+        .ends_with(2, "not the solution's")
+        .says(&["--scene", "solution.ply"]);
+    folder
+        .line(&format!("solve other.obj --out others {COARSE}"))
+        .ends_with(0, "solve");
+    let line = "error others ref.json";
+    let words = ["ref.json was measured from another scene"];
+    folder.line(line).ends_with(0, "warning").says(&words);
+    let run = folder.line(&format!("{line} --max 10"));
+    run.ends_with(2, "check").says(&words).says(&["--max"]);
+    // A stats.json of other bytes says nothing of them.
+    fs::copy(
+        folder.path("solved/stats.json"),
+        folder.path("others/stats.json"),
+    )
+    .unwrap();
+    let run = folder.line(line);
+    assert_eq!(run.ends_with(0, "unknown").stderr, "");
 }
 
 #[test]

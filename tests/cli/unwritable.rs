@@ -17,6 +17,22 @@ fn a_file_in_the_place_of_the_folder() {
     assert_eq!(fs::read(folder.path("taken")).unwrap(), b"keep me");
 }
 
+/// Nor are the files of a measurement.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_in_a_folder_that_takes_none() {
+    let folder = Folder::new();
+    write_room(&folder);
+    for line in [
+        "reference room.obj --out /proc/ref.json --error 1e-9",
+        "bench --suite paper --record /proc/bench.json",
+    ] {
+        let run = folder.line(line);
+        run.ends_with(3, line).says(&["cannot write /proc"]);
+        assert_eq!(run.stdout, "", "{line}");
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_takes_no_files() {
@@ -50,21 +66,41 @@ fn a_report_that_has_no_place_is_refused_before_the_work() {
     assert!(!folder.path("a.json").exists());
 }
 
+/// Known before the solve: one that runs leaves its checkpoint.
 #[test]
 fn a_folder_in_the_place_of_a_result() {
+    for name in ["stats.json", "solution.ply", "view.png"] {
+        let folder = Folder::new();
+        write_room(&folder);
+        fs::create_dir_all(folder.path("results").join(name)).unwrap();
+        folder
+            .line("solve room.obj --out results --epsilon 1e-3")
+            .ends_with(3, name)
+            .says(&[name]);
+        assert_eq!(folder.names("results"), [name]);
+    }
+}
+
+/// The superuser may write anyway; then there is nothing to refuse.
+#[cfg(unix)]
+#[test]
+fn a_read_only_folder_is_known_before_the_solve() {
+    use std::os::unix::fs::PermissionsExt;
     let folder = Folder::new();
     write_room(&folder);
-    fs::create_dir_all(folder.path("results/stats.json")).unwrap();
-    folder
-        .line(&format!("solve room.obj --out results {COARSE}"))
-        .ends_with(3, "stats.json is a folder")
-        .says(&["stats.json"]);
-    assert!(
-        !folder
-            .names("results")
-            .iter()
-            .any(|n| n.ends_with(".partial"))
-    );
+    fs::create_dir(folder.path("results")).unwrap();
+    let permit = |mode| {
+        let permissions = fs::Permissions::from_mode(mode);
+        fs::set_permissions(folder.path("results"), permissions).unwrap();
+    };
+    permit(0o555);
+    let is_refused = fs::File::create(folder.path("results/probe")).is_err();
+    let run = folder.line("solve room.obj --out results --passes 2");
+    permit(0o755);
+    if is_refused {
+        run.ends_with(3, "read-only").says(&["results"]);
+        assert!(!run.stderr.contains("checkpoint"), "{}", run.stderr);
+    }
 }
 
 /// Links to a device, not the device itself: nothing of the machine is at stake.
@@ -79,14 +115,6 @@ fn a_device_in_the_place_of_a_result() {
         .line(&format!("solve room.obj --out results {COARSE}"))
         .ends_with(3, "a device")
         .says(&["solution.ply"]);
-    // The light is not lost: the solve goes on from its end once the name is free.
-    assert_eq!(
-        folder.names("results"),
-        ["solution.ply", "solve.checkpoint"]
-    );
-    fs::remove_file(folder.path("results/solution.ply")).unwrap();
-    folder
-        .line(&format!("solve room.obj --out results --resume {COARSE}"))
-        .ends_with(0, "the name is free");
-    assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
+    // Nothing was solved.
+    assert_eq!(folder.names("results"), ["solution.ply"]);
 }

@@ -41,6 +41,13 @@ fn everything_can_be_shown() {
     }
     // The same scale whatever is seen, so that pictures can be compared.
     let quiet = folder.line("--quiet view results --out x.png --size 9x9 --show irradiance");
+    quiet.ends_with(0, "quiet");
+    assert!(
+        quiet.stdout.starts_with("irradiance: 0 to "),
+        "the scale is a result: {}",
+        quiet.stdout
+    );
+    let quiet = folder.line("--quiet view results --out x.png --size 9x9");
     assert_eq!(quiet.ends_with(0, "quiet").stdout, "");
 }
 

@@ -24,7 +24,8 @@ struct Summary {
     speedup_later: f64,
     worst: f64,
     best: f64,
-    fewer_rays: f64,
+    /// Absent where no ray is cast.
+    fewer_rays: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -135,7 +136,12 @@ fn summary_row(summary: &Summary) -> Vec<Cell> {
         mean(summary.speedup_later),
         Cell::quantity(summary.worst),
         Cell::quantity(summary.best),
-        Cell::quantity(summary.fewer_rays),
+        // Earlier versions divided by one where no ray was cast.
+        Cell::maybe(
+            summary
+                .fewer_rays
+                .filter(|_| summary.technique != "unoccluded"),
+        ),
     ]
 }
 
