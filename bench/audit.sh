@@ -19,7 +19,7 @@ run() {
     local name=$1 code=0
     shift
     echo "$name" >&2
-    "$CERTILUX" --no-config audit "$@" --threads 1 --quiet --json "$out/$name.json" || code=$?
+    "$CERTILUX" --no-config audit "$@" --threads 1 --quiet --json "$out/$name.json" >&2 || code=$?
     case $code in
     0) ;;
     1) failed=1 ;;
