@@ -4,7 +4,6 @@
 //! the rest another, and no rectangle holds them all; the solid between the faces does. (The paper's conclusion names
 //! volume occluders as the next step.)
 
-use super::slab::SlabRectangle;
 use crate::math::Aabb;
 use glam::{DVec3, Vec3};
 
@@ -102,24 +101,6 @@ impl Solid {
         })
     }
 
-    /// True if a rectangle is one of the faces, up to `slack`, with the solid on the side of its normal (1) or behind
-    /// it (-1).
-    pub(super) fn has_face(&self, rectangle: &SlabRectangle, side: f64, slack: f64) -> bool {
-        let corners = rectangle.corners.map(Vec3::as_dvec3);
-        let middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-        let into = rectangle.normal.as_dvec3() * side;
-        let from_centre = middle - self.centre.as_dvec3();
-        (0..6).any(|face| {
-            let (axis, out) = (face / 2, [-1.0, 1.0][face % 2]);
-            let half = self.halves[axis].as_dvec3() * out;
-            // Middles first: nearly all rectangles are elsewhere.
-            from_centre.distance_squared(half) <= slack * slack
-                && into.dot(half) < 0.0
-                && (self.face(axis, out).into_iter())
-                    .all(|p| corners.iter().any(|c| c.distance(p) <= slack))
-        })
-    }
-
     /// Volume.
     pub fn volume(&self) -> f32 {
         let [a, b, c] = self.halves;
@@ -130,24 +111,6 @@ impl Solid {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_rectangle_is_a_face_of_the_solid_on_one_of_its_sides_alone() {
-        let halves = [Vec3::X * 0.1, Vec3::Y * 0.2, Vec3::Z * 0.05];
-        let solid = Solid {
-            centre: Vec3::new(0.1, -0.2, 0.3),
-            halves,
-            covered: [[true; 2]; 3],
-        };
-        let top = |u: Vec3| {
-            let centre = solid.centre + halves[1];
-            SlabRectangle::new(centre, halves[2], u, Vec3::Y, 1e-6)
-        };
-        let outwards = top(halves[0]);
-        assert!(solid.has_face(&outwards, -1.0, 1e-6));
-        assert!(!solid.has_face(&outwards, 1.0, 1e-6));
-        assert!(!solid.has_face(&top(halves[0] * 0.99), -1.0, 1e-6));
-    }
 
     #[test]
     fn faces_run_counter_clockwise_seen_from_outside() {

@@ -36,9 +36,6 @@ const LEAST_THICKNESS: f64 = 1000.0;
 /// Rectangles that are tried, the largest ones.
 const MOST_RECTANGLES: usize = 512;
 
-/// Rectangles that are tried at a time, whatever the number of threads: each is spared what those of the batches before found.
-const BATCH: usize = 32;
-
 /// Depths tried on one side of a rectangle, the greatest.
 const MOST_DEPTHS: usize = 6;
 
@@ -63,24 +60,16 @@ pub(super) fn find_solids(scene: &Scene, occluders: &[Occluder], weld: f64) -> V
         tree: PolygonTree::new(scene),
         weld,
     };
-    let mut all: Vec<Solid> = Vec::new();
-    for batch in largest.chunks(BATCH) {
-        let found: Vec<Vec<Solid>> = batch
-            .par_iter()
-            .map(|occluder| {
-                let new = |side: &f64| {
-                    !all.iter()
-                        .any(|s| s.has_face(&occluder.slab, *side, 16.0 * weld))
-                };
-                let sides = [1.0, -1.0].into_iter().filter(new);
-                sides
-                    .flat_map(|side| search.behind(occluder, side))
-                    .collect()
-            })
-            .collect();
-        all.extend(found.into_iter().flatten());
-    }
-    // One and the same box may be found from several of its faces.
+    let found: Vec<Vec<Solid>> = largest
+        .par_iter()
+        .map(|occluder| {
+            let mut solids = search.behind(occluder, 1.0);
+            solids.extend(search.behind(occluder, -1.0));
+            solids
+        })
+        .collect();
+    // One and the same box is found from each of its faces.
+    let mut all: Vec<Solid> = found.into_iter().flatten().collect();
     all.sort_by(|a, b| b.volume().total_cmp(&a.volume()));
     let mut kept: Vec<Solid> = Vec::new();
     for solid in all {
