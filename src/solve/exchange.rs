@@ -137,9 +137,6 @@ impl<const C: usize> Task<'_, '_, C> {
     /// Radiosity that counts towards a receiver, times the source's weight.
     fn light_towards(&self, source: &Source, receiver: &Element) -> [f64; C] {
         let mean = self.radiosity(source).map(f64::from);
-        if !source.element.is_triangle() {
-            return mean.map(|b| b * source.weight);
-        }
         let shooter = &self.pass.shooters[source.owner as usize];
         let factor = uneven_source::towards(shooter, source.slot, source.element, receiver);
         std::array::from_fn(|c| mean[c] * source.weight * factor[c])

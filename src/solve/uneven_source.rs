@@ -14,8 +14,9 @@ use glam::Vec3;
 /// Gap, in radii of the receiver, below which the view of the source changes over the receiver.
 const NEAR: f32 = 4.0;
 
-/// How much more a source sends towards a receiver than its mean radiosity, channel by channel: the factor is 1 for a patch without
-/// children, of whose light no more is known.
+/// How much more a source sends towards a receiver than its mean radiosity, channel by channel, from [`LEAST`] to
+/// [`MOST`]: 1 for a cluster, whose facets shoot each by its own light, and for a patch without children, of whose light no
+/// more is known.
 pub(super) fn towards<const C: usize>(
     shooter: &Shooter<C>,
     slot: u32,
