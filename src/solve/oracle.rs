@@ -79,7 +79,7 @@ const SURE: f64 = 0.999;
 const PARTIAL_SHARE: f64 = 1.0 / 16.0;
 /// Share of the threshold that may ride on the light being no more than linear over its source ([`super::uneven_source`]).
 /// Measured (`bench/runs/`, accuracy/linear_sources.md): a quarter of it changes no error and takes 6 to 20 % more
-/// exchanges, four times it takes two-rooms at 1e-4 from 1.97 to 2.29 %.
+/// exchanges, four times it takes two-rooms at 1e-4 from 2.00 to 2.29 %.
 const UNEVEN_SHARE: f64 = 1.0 / 8.0;
 /// A patch is not split once its radius is this many tau: its samples would start inside the margins.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
