@@ -9,6 +9,7 @@ pub mod exact;
 mod faults;
 mod full_visibility;
 mod light_search;
+mod near_segments;
 mod occluder_tree;
 mod occlusion;
 mod part_visibility;
@@ -19,6 +20,7 @@ mod sampling;
 mod scene_tree;
 mod shaft;
 mod shaft_planes;
+mod shaft_walk;
 mod slab_planes;
 mod solid_occlusion;
 mod solid_tree;
@@ -31,24 +33,28 @@ mod wide_corners;
 mod wide_tree;
 mod wide_tree_builder;
 
-pub use blockers::{BlockerList, SegmentOctet};
+pub use blockers::BlockerList;
 pub use bounds::{BoundsShape, ElementBounds};
 pub use empty_boxes::{EmptyBoxes, NearbyBoxes};
 pub use faults::Faults;
-pub use full_visibility::{VisibilityAnswer, VisibilityQuery, VisibilityScratch, WalkLimits};
+pub use full_visibility::VisibilityQuery;
 pub use light_search::{SampledLight, look_for_light};
+pub use near_segments::SegmentOctet;
 pub use occluder_tree::{OccluderTree, OcclusionAnswer, OcclusionScratch};
 pub use occlusion::OccluderFaces;
 pub use part_visibility::{PARTS, PartVisibility};
 pub use sample_points::{PointOctet, Surface, children_of_triangle};
 pub use sampling::{AllClear, SampleOctet, SampledVisibility, SegmentTest, sample_visibility};
 pub use scene_tree::SceneTree;
+pub use shaft_walk::{VisibilityAnswer, VisibilityScratch, WalkLimits};
 pub use survivors::SurvivorList;
 pub use tolerance::Tolerance;
 pub use trimmed::LEAST_COSINE;
 pub use verdict::Verdict;
 pub use wide_tree::WideTreeDefect;
 
+#[cfg(test)]
+mod blockers_tests;
 #[cfg(test)]
 mod empty_box_proofs;
 #[cfg(test)]
@@ -63,5 +69,7 @@ mod occlusion_proofs;
 mod proof_stage;
 #[cfg(test)]
 mod solid_proofs;
+#[cfg(test)]
+mod survivor_proofs;
 #[cfg(test)]
 mod visibility_proofs;

@@ -12,7 +12,8 @@
 // Lanes of several arrays run in step: an index says so, and is what vectorises.
 #![allow(clippy::needless_range_loop)]
 
-use super::blockers::{BlockerList, SegmentOctet};
+use super::blockers::BlockerList;
+use super::near_segments::SegmentOctet;
 use super::part_visibility::{PartVisibility, PartWeights};
 use super::sample_points::Surface;
 use super::trimmed::trim;
