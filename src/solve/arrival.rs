@@ -1,11 +1,13 @@
 //! What arrives at a receiver: irradiance vectors ([`super::element_vector`]) at points of it, fitted by what
 //! a receiver of its kind can hold.
 
+use super::cluster_light::ClusterLight;
 use super::composite_rule::{CompositeRule, MOST_POINTS, three_points};
 use super::element::{Element, Shape};
 use super::element_vector::{Space, element_vector};
 use super::irradiance_kernel::{Shining, irradiance_on};
 use super::push_pull::local_children;
+use super::receiver_spread::Sender;
 use crate::math::NodeId;
 use crate::visibility::PARTS;
 use glam::Vec3;
@@ -31,7 +33,7 @@ pub struct Flatness {
 pub enum Arrival {
     /// On a triangle: the linear function that fits best, by its values at the three corners.
     Linear([f32; 3]),
-    /// On a flat cluster: irradiance vectors of nodes of it, to be dotted with each facet's normal.
+    /// On a flat cluster: irradiance vectors of nodes of it, to be dotted with each facet's normal, with their slopes.
     Vectors(NodeVectors),
     /// On a cluster of any shape: the same, whose dot product with each facet's normal counts where it is positive.
     Field(NodeVectors),
@@ -42,6 +44,8 @@ pub enum Arrival {
 pub struct NodeVectors {
     count: usize,
     vectors: [(u32, Vec3); PARTS],
+    /// Where the vectors are those, and what the irradiance gains along each axis from there.
+    slopes: [(Vec3, Vec3); PARTS],
     /// First facets of the nodes.
     first_facets: [u32; PARTS],
 }
@@ -50,12 +54,14 @@ impl NodeVectors {
     const NONE: Self = Self {
         count: 0,
         vectors: [(0, Vec3::ZERO); PARTS],
+        slopes: [(Vec3::ZERO, Vec3::ZERO); PARTS],
         first_facets: [0; PARTS],
     };
 
-    fn push(&mut self, local: usize, first_facet: u32, vector: Vec3) {
+    fn push(&mut self, local: usize, first_facet: u32, vector: Vec3, slope: (Vec3, Vec3)) {
         self.first_facets[self.count] = first_facet;
         self.vectors[self.count] = (local as u32, vector);
+        self.slopes[self.count] = slope;
         self.count += 1;
     }
 
@@ -66,11 +72,12 @@ impl NodeVectors {
             .map(|k| (k, self.first_facets[k] as usize, self.vectors[k].1))
     }
 
-    /// Places in the owner's depth-first order of nodes, and the vectors there.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, Vec3)> + '_ {
-        self.vectors[..self.count]
-            .iter()
-            .map(|&(local, vector)| (local as usize, vector))
+    /// Places in the owner's depth-first order of nodes, and the light there.
+    pub fn lights(&self) -> impl Iterator<Item = (usize, ClusterLight)> + '_ {
+        let nodes = self.vectors[..self.count].iter().zip(&self.slopes);
+        nodes.map(|(&(local, vector), &(centroid, slope))| {
+            (local as usize, ClusterLight::about(centroid, vector, slope))
+        })
     }
 }
 
@@ -87,7 +94,10 @@ impl Arrival {
     pub fn is_zero(&self) -> bool {
         match self {
             Self::Linear(e) => *e == [0.0; 3],
-            Self::Field(nodes) | Self::Vectors(nodes) => nodes.iter().all(|(_, v)| v == Vec3::ZERO),
+            Self::Field(nodes) | Self::Vectors(nodes) => {
+                let mut vectors = nodes.vectors[..nodes.count].iter();
+                vectors.all(|&(_, vector)| vector == Vec3::ZERO)
+            }
         }
     }
 }
@@ -160,7 +170,7 @@ pub fn arrival(
                 .map_or(MOST_LEVELS, |&(_, levels)| levels);
             let mut nodes = NodeVectors::NONE;
             let place = (receiver.node, local as usize);
-            node_vectors(space, source, place, levels, flatness.source, &mut nodes);
+            node_vectors(space, source, place, levels, flatness, &mut nodes);
             let arrival = match flatness.receiver {
                 true => Arrival::Vectors(nodes),
                 false => Arrival::Field(nodes),
@@ -264,30 +274,36 @@ fn node_vectors(
     source: &Element,
     (receiver, local): (NodeId, usize),
     levels: u32,
-    flat: bool,
+    flatness: Flatness,
     nodes: &mut NodeVectors,
 ) {
     let shape = space.hierarchy.shape(receiver);
-    let at = |p: Vec3| element_vector(space, source, p, None, flat);
+    let at = |p: Vec3| element_vector(space, source, p, None, flatness.source);
     match space.hierarchy.children(receiver) {
-        _ if levels == 0 => nodes.push(
-            local,
-            space.hierarchy.node(receiver).first_facet,
-            at(shape.centroid),
-        ),
+        _ if levels == 0 => {
+            let vector = at(shape.centroid);
+            let (mean, slope) = match flatness.receiver {
+                true => {
+                    let mean_square = space.flux_tree.mean_square(receiver);
+                    let sent = Sender::new(source, flatness.source);
+                    sent.over(shape, mean_square, vector)
+                }
+                false => (1.0, Vec3::ZERO),
+            };
+            let first = space.hierarchy.node(receiver).first_facet;
+            nodes.push(local, first, vector * mean, (shape.centroid, slope));
+        }
         None => {
             let facet = space.hierarchy.facets[space.hierarchy.facet_of_leaf(receiver).index()];
             let points = three_points(space.scene.facet_corners(facet));
-            nodes.push(
-                local,
-                space.hierarchy.node(receiver).first_facet,
-                points.into_iter().map(at).sum::<Vec3>() / 3.0,
-            );
+            let first = space.hierarchy.node(receiver).first_facet;
+            let vector = points.into_iter().map(at).sum::<Vec3>() / 3.0;
+            nodes.push(local, first, vector, (shape.centroid, Vec3::ZERO));
         }
         Some(children) => {
             let locals = local_children(space.hierarchy, children[0], local);
             for place in children.into_iter().zip(locals) {
-                node_vectors(space, source, place, levels - 1, flat, nodes);
+                node_vectors(space, source, place, levels - 1, flatness, nodes);
             }
         }
     }

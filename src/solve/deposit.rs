@@ -52,10 +52,10 @@ impl<const C: usize> Task<'_, '_, C> {
                 }
             }
             Arrival::Vectors(nodes) => {
-                for ((local, vector), &share) in nodes.iter().zip(&visibility.parts) {
-                    let vector = vector.as_dvec3() * f64::from(share);
-                    for (sum, b) in self.gatherer.vectors[local].iter_mut().zip(light) {
-                        *sum += vector * b;
+                for ((local, arrived), &share) in nodes.lights().zip(&visibility.parts) {
+                    let clusters = &mut self.gatherer.clusters[local];
+                    for (sum, b) in clusters.iter_mut().zip(light) {
+                        sum.add(&arrived, f64::from(share) * b);
                     }
                 }
             }

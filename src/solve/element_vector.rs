@@ -78,7 +78,7 @@ fn cluster_vector(space: &Space, id: NodeId, point: Vec3, normal: Option<Vec3>) 
     match node.below() {
         Below::Children(_) if distance2 > node.reach2 => {
             match normal.is_none_or(|n| n.dot(rel) > 0.0) {
-                true => far_vector(node, rel, distance2),
+                true => node.vector_from(rel, distance2),
                 false => Vec3::ZERO,
             }
         }

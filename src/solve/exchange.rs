@@ -5,7 +5,7 @@ use super::arrival::{Flatness, arrival};
 use super::claim_check::Recording;
 use super::claims::Claim;
 use super::config::Technique;
-use super::element::Element;
+use super::element::{Element, Shape};
 use super::element_vector::Space;
 use super::pair::{Known, Receiver, Source, Target, exchange_key};
 use super::query_schedule::{Evidence, Occasion, Queries};
@@ -46,6 +46,10 @@ impl<const C: usize> Task<'_, '_, C> {
     ) -> Next {
         let context = self.pass.context;
         let oracle = self.pass.oracle;
+        let flatness = Flatness {
+            source: oracle.is_flat_towards(source.element, receiver.element),
+            receiver: oracle.is_flat_towards(receiver.element, source.element),
+        };
         let (unoccluded, residual) = arrival(
             &Space {
                 scene: context.scene,
@@ -59,10 +63,7 @@ impl<const C: usize> Task<'_, '_, C> {
             source.element,
             receiver.element,
             receiver.local,
-            Flatness {
-                source: oracle.is_flat_towards(source.element, receiver.element),
-                receiver: oracle.is_flat_towards(receiver.element, source.element),
-            },
+            flatness,
         );
         if unoccluded.is_zero() {
             return Next::Done;
@@ -128,17 +129,27 @@ impl<const C: usize> Task<'_, '_, C> {
         self.outcome.statistics.exchanges += 1;
         // Below zero where a second set stands for others that the first overrated.
         if visibility != PartVisibility::even(0.0) {
-            let light = self.light_towards(source, receiver.element);
+            let light = self.light_towards(source, receiver.element, flatness);
             self.deposit(receiver, &unoccluded, &visibility, light);
         }
         Next::Done
     }
 
     /// Radiosity that counts towards a receiver, times the source's weight.
-    fn light_towards(&self, source: &Source, receiver: &Element) -> [f64; C] {
+    fn light_towards(&self, source: &Source, receiver: &Element, flat: Flatness) -> [f64; C] {
         let mean = self.radiosity(source).map(f64::from);
-        let shooter = &self.pass.shooters[source.owner as usize];
-        let factor = uneven_source::towards(shooter, source.slot, source.element, receiver);
+        let element = source.element;
+        let factor = match element.shape {
+            Shape::Triangle(corners) => {
+                let shooter = &self.pass.shooters[source.owner as usize];
+                uneven_source::triangle_towards(shooter, source.slot, (element, corners), receiver)
+            }
+            Shape::Cluster if flat.source => {
+                let moment = &self.pass.node_moment[element.node.index()];
+                uneven_source::cluster_towards(&mean, moment, element, receiver, flat.receiver)
+            }
+            _ => [1.0; C],
+        };
         std::array::from_fn(|c| mean[c] * source.weight * factor[c])
     }
 

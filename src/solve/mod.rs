@@ -3,6 +3,7 @@
 mod arrival;
 mod claim_check;
 mod claims;
+mod cluster_light;
 mod composite_rule;
 mod config;
 mod deposit;
@@ -45,6 +46,7 @@ mod push_pull;
 mod query_record;
 mod query_schedule;
 mod radiosity;
+mod receiver_spread;
 #[cfg(test)]
 mod roulette_tests;
 mod sampled_element;

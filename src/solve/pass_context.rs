@@ -74,6 +74,7 @@ pub(super) struct Pass<'a, const C: usize> {
     pub(super) shooters: &'a [Shooter<C>],
     pub(super) node_unshot: &'a [[f32; C]],
     pub(super) node_variance: &'a [f32],
+    pub(super) node_moment: &'a [[Vec3; C]],
     pub(super) power_before: &'a [f64],
     pub(super) power_vectors: &'a PowerVectors,
     pub(super) is_even: &'a [bool],

@@ -1,18 +1,19 @@
 //! After a pass: push what was gathered down to the leaves, reflect it, pull the new radiosity up
 //! (paper, section 4; Hanrahan et al. 1991).
 
+use super::cluster_light::ClusterLight;
+use super::facet_frame::FacetFrame;
 use super::patch_split::PatchSplit;
 use super::radiosity::{Gatherer, Light, Shooter};
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{FacetId, NodeId};
-use glam::{DVec3, Vec3};
 
 /// What the push needs to know of the facets.
 pub struct FacetProperties<'a, const C: usize> {
     /// Reflectance of each facet.
     pub reflectance: &'a [Light<C>],
-    /// Unit normal of each facet, on its side.
-    pub normals: &'a [Vec3],
+    /// Where each facet lies.
+    pub frames: &'a [FacetFrame],
 }
 
 /// Pushes an owner's gathered irradiance (times `scale`, the row normalisation) to its leaves, adds it to
@@ -42,30 +43,31 @@ pub fn push_pull<const C: usize>(
     }
 }
 
-/// Adds the irradiance vectors of clusters, dotted with each facet's normal, to the facets.
+/// Adds the light of clusters to their facets.
 fn push_nodes<const C: usize>(
     hierarchy: &Hierarchy,
     facets: &FacetProperties<C>,
     gatherer: &mut Gatherer<C>,
 ) {
-    if gatherer.vectors.is_empty() {
+    if gatherer.clusters.is_empty() {
         return;
     }
-    // (node, its place in depth-first order, sum of the vectors above it)
-    let mut stack = vec![(gatherer.root, 0usize, [DVec3::ZERO; C])];
+    // (node, its place in depth-first order, sum of the light above it)
+    let mut stack = vec![(gatherer.root, 0usize, [ClusterLight::ZERO; C])];
     while let Some((node, local, above)) = stack.pop() {
-        let own = std::mem::replace(&mut gatherer.vectors[local], [DVec3::ZERO; C]);
-        let sum: [DVec3; C] = std::array::from_fn(|c| above[c] + own[c]);
+        let mut sum = std::mem::replace(&mut gatherer.clusters[local], [ClusterLight::ZERO; C]);
+        for (sum, above) in sum.iter_mut().zip(&above) {
+            sum.add(above, 1.0);
+        }
         if hierarchy.node(node).kind == NodeKind::Facet {
             let facet = hierarchy.facet_of_leaf(node);
-            let normal = facets.normals[facet.index()].as_dvec3();
+            let frame = &facets.frames[facet.index()];
+            let corners = frame.corners();
             let gathered = &mut gatherer.gathered[(facet.0 - gatherer.first_facet) as usize];
-            for c in 0..C {
-                // A cluster receives only what is in front of all its facets: the dot product is negative by
-                // rounding, or where second sets of samples took back more than the others brought.
-                let irradiance = normal.dot(sum[c]).max(0.0);
-                for corner in gathered.iter_mut() {
-                    corner[c] += irradiance;
+            for (c, light) in sum.iter().enumerate() {
+                let irradiance = light.on_facet(corners, frame.normal);
+                for (corner, x) in gathered.iter_mut().zip(irradiance) {
+                    corner[c] += x;
                 }
             }
         } else if let Some([a, b]) = hierarchy.children(node) {
@@ -204,11 +206,14 @@ pub fn gathered_power<const C: usize>(
     }
     let mut nodes = vec![(gatherer.root, 0usize)];
     while let Some((node, local)) = nodes.pop() {
-        let Some(vectors) = gatherer.vectors.get(local) else {
+        let Some(light) = gatherer.clusters.get(local) else {
             break;
         };
         let area_vector = hierarchy.shape(node).area_vector.as_dvec3();
-        add(&std::array::from_fn(|c| vectors[c].dot(area_vector)), 1.0);
+        add(
+            &std::array::from_fn(|c| light[c].vector.dot(area_vector)),
+            1.0,
+        );
         if let Some([a, b]) = hierarchy.children(node) {
             let [la, lb] = local_children(hierarchy, a, local);
             nodes.extend([(a, la), (b, lb)]);

@@ -4,13 +4,15 @@
 //! An owner holds a contiguous range of facets. Its patches stand in one array: the first entries
 //! are the facets themselves, children of a patch are four in a row.
 
+use super::cluster_light::ClusterLight;
+use super::facet_frame::FacetFrame;
 use super::ownership::owner_cut;
 use super::patch_split::{PatchSplit, relative_variance};
 use super::power_vectors::PowerVectors;
 use super::solution::PatchPath;
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{FacetId, NodeId};
-use glam::DVec3;
+use glam::Vec3;
 
 /// An energy in `C` channels.
 pub type Light<const C: usize> = [f64; C];
@@ -45,9 +47,9 @@ pub struct Gatherer<const C: usize> {
     pub total: Vec<Light<C>>,
     /// How that varies over each patch: what patches made later start from. Nowhere below zero.
     pub slopes: Vec<Slope<C>>,
-    /// Irradiance vectors gathered in this pass by clusters, by place in the owner's depth-first
-    /// order of nodes; empty where the owner is one facet.
-    pub vectors: Vec<[DVec3; C]>,
+    /// What clusters gathered in this pass, by place in the owner's depth-first order of nodes; empty where the owner is
+    /// one facet.
+    pub clusters: Vec<[ClusterLight; C]>,
 }
 
 impl<const C: usize> Gatherer<C> {
@@ -62,8 +64,8 @@ impl<const C: usize> Gatherer<C> {
             gathered: vec![[[0.0; C]; 3]; facets],
             total: vec![[0.0; C]; facets],
             slopes: vec![[[0.0; C]; 3]; facets],
-            vectors: if facets > 1 {
-                vec![[DVec3::ZERO; C]; 2 * facets - 1]
+            clusters: if facets > 1 {
+                vec![[ClusterLight::ZERO; C]; 2 * facets - 1]
             } else {
                 Vec::new()
             },
@@ -120,6 +122,9 @@ pub struct Radiosity<const C: usize> {
     pub node_unshot: Vec<[f32; C]>,
     /// Relative variance of the unshot radiosity over every node, all channels together.
     pub node_variance: Vec<f32>,
+    /// Mean over every node of what its unshot radiosity is beyond its mean, times the way from its centroid: towards
+    /// where it is brighter.
+    pub node_moment: Vec<[Vec3; C]>,
     /// Sums of the unshot power, over all channels, of the facets before each facet; one longer.
     pub power_before: Vec<f64>,
     /// The same power of each facet, times its normal.
@@ -155,6 +160,7 @@ impl<const C: usize> Radiosity<C> {
             gatherers,
             node_unshot: vec![[0.0; C]; hierarchy.nodes.len()],
             node_variance: vec![0.0; hierarchy.nodes.len()],
+            node_moment: vec![[Vec3::ZERO; C]; hierarchy.nodes.len()],
             power_before: vec![0.0; hierarchy.facets.len() + 1],
             power_vectors: PowerVectors::zero(hierarchy.facets.len()),
             is_even: vec![true; hierarchy.facets.len()],
@@ -164,7 +170,7 @@ impl<const C: usize> Radiosity<C> {
                 .map(|&root| hierarchy.node(root).first_facet)
                 .collect(),
         };
-        light.pull_nodes(hierarchy);
+        light.pull_nodes(hierarchy, &[]);
         light
     }
 
@@ -182,8 +188,8 @@ impl<const C: usize> Radiosity<C> {
     }
 
     /// Averages the facets' unshot radiosity up the hierarchy (paper: pull). Children stand behind
-    /// their parents, so one walk from the back serves.
-    pub fn pull_nodes(&mut self, hierarchy: &Hierarchy) {
+    /// their parents, so one walk from the back serves. `frames` are those of all facets, or of none where no facet is split.
+    pub fn pull_nodes(&mut self, hierarchy: &Hierarchy, frames: &[FacetFrame]) {
         for index in (0..hierarchy.nodes.len()).rev() {
             let node = &hierarchy.nodes[index];
             self.node_unshot[index] = if node.kind == NodeKind::Facet {
@@ -206,6 +212,11 @@ impl<const C: usize> Radiosity<C> {
                         / (area_a + area_b)) as f32
                 })
             };
+            self.node_moment[index] = match node.kind {
+                NodeKind::Facet => self.facet_moment(FacetId(node.first_facet), frames),
+                NodeKind::FaceCluster => self.moment_of_children(hierarchy, index),
+                NodeKind::Volume => [Vec3::ZERO; C],
+            };
             if node.kind == NodeKind::Facet {
                 let split = *self.facet_split(FacetId(node.first_facet));
                 self.node_variance[index] = split.variance;
@@ -222,6 +233,39 @@ impl<const C: usize> Radiosity<C> {
         }
     }
 
+    /// What the children of a facet hold beyond its mean, each at its middle: half as far out as the corner, and that in
+    /// the middle nowhere.
+    fn facet_moment(&self, facet: FacetId, frames: &[FacetFrame]) -> [Vec3; C] {
+        let first = self.facet_split(facet).first as usize;
+        if first == 0 {
+            return [Vec3::ZERO; C];
+        }
+        let corners = frames[facet.index()].corners();
+        let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let mean = self.facet_unshot(facet);
+        let unshot = &self.shooters[self.owner_of_facet[facet.index()] as usize].unshot;
+        std::array::from_fn(|c| {
+            let moments = (0..3).map(|k| (corners[k] - middle) * (unshot[first + k][c] - mean[c]));
+            moments.sum::<Vec3>() * (0.25 * 0.5)
+        })
+    }
+
+    /// The same of a cluster: its children's own, and their means at their centroids.
+    fn moment_of_children(&self, hierarchy: &Hierarchy, index: usize) -> [Vec3; C] {
+        let whole = &hierarchy.shapes[index];
+        let first = hierarchy.nodes[index].first_child as usize;
+        let mut moment = [Vec3::ZERO; C];
+        for child in [first, first + 1] {
+            let shape = &hierarchy.shapes[child];
+            let (share, way) = (shape.area / whole.area, shape.centroid - whole.centroid);
+            for c in 0..C {
+                let more = self.node_unshot[child][c] - self.node_unshot[index][c];
+                moment[c] += (self.node_moment[child][c] + way * more) * share;
+            }
+        }
+        moment
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         let per_patch = size_of::<u32>()
@@ -231,9 +275,11 @@ impl<const C: usize> Radiosity<C> {
             + size_of::<Slope<C>>();
         self.gatherers
             .iter()
-            .map(|g| g.children.len() * per_patch + g.vectors.len() * size_of::<[DVec3; C]>())
+            .map(|g| {
+                g.children.len() * per_patch + g.clusters.len() * size_of::<[ClusterLight; C]>()
+            })
             .sum::<usize>()
-            + self.node_unshot.len() * size_of::<[f32; C]>()
+            + self.node_unshot.len() * (size_of::<[f32; C]>() + size_of::<[Vec3; C]>())
             + self.power_before.len() * size_of::<f64>()
             + self.is_even.len()
             + self.power_vectors.bytes()

@@ -10,6 +10,7 @@
 //! that the last pass shot (f64 a channel), owners (u32), facets (u32); then each owner's count of facets and patches
 //! (u32 each) and its arrays.
 
+use super::facet_frame::FacetFrame;
 use super::patch_split::PatchSplit;
 use super::radiosity::{Gatherer, Light, Radiosity, Shooter, Slope};
 use super::solution::PatchPath;
@@ -77,6 +78,7 @@ impl Snapshot {
     pub fn restore<const C: usize>(
         &self,
         hierarchy: &Hierarchy,
+        frames: &[FacetFrame],
         light: &mut Radiosity<C>,
     ) -> Result<Carried, SnapshotError> {
         let mut input = Reader(&self.bytes);
@@ -98,7 +100,7 @@ impl Snapshot {
         {
             owner.move_into(gatherer, shooter);
         }
-        light.pull_nodes(hierarchy);
+        light.pull_nodes(hierarchy, frames);
         Ok(carried)
     }
 

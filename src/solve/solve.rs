@@ -84,7 +84,7 @@ pub fn resume(
 
 impl<const C: usize> Solver<'_, C> {
     fn go_on(mut self, snapshot: &Snapshot) -> Result<Solved, SolveError> {
-        let carried = snapshot.restore(self.hierarchy, &mut self.light)?;
+        let carried = snapshot.restore(self.hierarchy, &self.table.frames, &mut self.light)?;
         self.run(carried)
     }
 

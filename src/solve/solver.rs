@@ -150,7 +150,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             1.0
         };
         self.push(scale);
-        self.light.pull_nodes(self.hierarchy);
+        self.light.pull_nodes(self.hierarchy, &self.table.frames);
         outcome.statistics.seconds = start.elapsed().as_secs_f64();
         Ok((outcome, scale))
     }
@@ -158,7 +158,7 @@ impl<'a, const C: usize> Solver<'a, C> {
     fn push(&mut self, scale: f64) {
         let properties = FacetProperties {
             reflectance: &self.table.reflectance,
-            normals: &self.table.normals,
+            frames: &self.table.frames,
         };
         let hierarchy = self.hierarchy;
         self.light

@@ -14,18 +14,14 @@ use glam::Vec3;
 /// Gap, in radii of the receiver, below which the view of the source changes over the receiver.
 const NEAR: f32 = 4.0;
 
-/// How much more a source sends towards a receiver than its mean radiosity, channel by channel, from [`LEAST`] to
-/// [`MOST`]: 1 for a cluster, whose facets shoot each by its own light, and for a patch without children, of whose light no
-/// more is known.
-pub(super) fn towards<const C: usize>(
+/// How much more a facet or patch with these corners sends towards a receiver than its mean radiosity, channel by channel,
+/// from [`LEAST`] to [`MOST`]: 1 for one without children, of whose light no more is known.
+pub(super) fn triangle_towards<const C: usize>(
     shooter: &Shooter<C>,
     slot: u32,
-    source: &Element,
+    (source, corners): (&Element, [Vec3; 3]),
     receiver: &Element,
 ) -> [f64; C] {
-    let Shape::Triangle(corners) = source.shape else {
-        return [1.0; C];
-    };
     let split = &shooter.splits[slot as usize];
     if split.first == 0 || split.variance <= 0.0 {
         return [1.0; C];
@@ -45,6 +41,30 @@ pub(super) fn towards<const C: usize>(
             .map(|k| f64::from(seen[k]) * (part(k) - middle))
             .sum();
         (1.0 + more / f64::from(mean[c])).clamp(LEAST, MOST)
+    })
+}
+
+/// The same of a flat cluster of this mean radiosity and its first moment ([`Radiosity::node_moment`]), far enough away for
+/// the view of it to change little: the kernel `q h / |d|^4` gains `n_r / h - 4 d / |d|^2` of itself along each axis of the
+/// source's plane, `h = n_r . d`, without the first term where the receiver is not `flat`.
+///
+/// [`Radiosity::node_moment`]: super::radiosity::Radiosity::node_moment
+pub(super) fn cluster_towards<const C: usize>(
+    mean: &[f64; C],
+    moment: &[Vec3; C],
+    source: &Element,
+    receiver: &Element,
+    flat: bool,
+) -> [f64; C] {
+    let d = source.centroid - receiver.centroid;
+    let h = receiver.normal.dot(d);
+    let mut gain = d * (-4.0 / d.length_squared());
+    if flat && h > 0.0 {
+        gain += receiver.normal / h;
+    }
+    std::array::from_fn(|c| match mean[c] > 0.0 {
+        true => (1.0 + f64::from(gain.dot(moment[c])) / mean[c]).clamp(LEAST, MOST),
+        false => 1.0,
     })
 }
 
@@ -170,7 +190,7 @@ mod tests {
                 }
             }
             let exact = sent / even;
-            let [factor] = towards(&shooter, 0, &source, &receiver);
+            let [factor] = triangle_towards(&shooter, 0, (&source, from), &receiver);
             assert!(even > 0.0 && (exact - 1.0).abs() < 0.5, "{corner}: {exact}");
             off_before += (exact - 1.0).abs();
             off += (exact - factor as f32).abs();
@@ -188,10 +208,12 @@ mod tests {
     #[test]
     fn an_even_source_and_a_leaf_send_their_mean() {
         let [source, receiver] = ends(Vec3::new(0.0, 0.0, 0.1), Vec3::Y * 0.4, Vec3::Z * 0.4);
-        assert_eq!(towards(&linear([2.0; 3]), 0, &source, &receiver), [1.0]);
-        assert_eq!(
-            towards(&linear([1.0, 4.0, 2.0]), 1, &source, &receiver),
-            [1.0]
-        );
+        let Shape::Triangle(corners) = source.shape else {
+            panic!("leaves are triangles");
+        };
+        for (corner, slot) in [([2.0; 3], 0), ([1.0, 4.0, 2.0], 1)] {
+            let sent = triangle_towards(&linear(corner), slot, (&source, corners), &receiver);
+            assert_eq!(sent, [1.0]);
+        }
     }
 }
