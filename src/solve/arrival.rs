@@ -7,7 +7,7 @@ use super::element::{Element, Shape};
 use super::element_vector::{Space, element_vector};
 use super::irradiance_kernel::{Shining, irradiance_on};
 use super::push_pull::local_children;
-use super::receiver_spread::Sender;
+use super::receiver_spread::spread_over;
 use crate::math::NodeId;
 use crate::visibility::PARTS;
 use glam::Vec3;
@@ -18,16 +18,6 @@ const POINTS_OF_A_CLUSTER: [(f32, u32); 3] = [(10.0, 0), (4.0, 1), (0.0, MOST_LE
 /// Most levels below a receiving cluster: as many nodes as there are parts whose visibility is told apart.
 const MOST_LEVELS: u32 = PARTS.ilog2();
 
-/// Whether one vector stands for the normals of each end (always for triangles); where not, every
-/// facet is asked.
-#[derive(Clone, Copy)]
-pub struct Flatness {
-    /// Of the source.
-    pub source: bool,
-    /// Of the receiver.
-    pub receiver: bool,
-}
-
 /// The irradiance from a unit-radiosity source over a receiver, unoccluded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
@@ -35,8 +25,6 @@ pub enum Arrival {
     Linear([f32; 3]),
     /// On a flat cluster: irradiance vectors of nodes of it, to be dotted with each facet's normal, with their slopes.
     Vectors(NodeVectors),
-    /// On a cluster of any shape: the same, whose dot product with each facet's normal counts where it is positive.
-    Field(NodeVectors),
 }
 
 /// Irradiance vectors of nodes that make up a cluster.
@@ -65,13 +53,6 @@ impl NodeVectors {
         self.count += 1;
     }
 
-    /// Numbers of the nodes, their first facets and the vectors there, from the last on.
-    pub fn back_to_front(&self) -> impl Iterator<Item = (usize, usize, Vec3)> + '_ {
-        (0..self.count)
-            .rev()
-            .map(|k| (k, self.first_facets[k] as usize, self.vectors[k].1))
-    }
-
     /// Places in the owner's depth-first order of nodes, and the light there.
     pub fn lights(&self) -> impl Iterator<Item = (usize, ClusterLight)> + '_ {
         let nodes = self.vectors[..self.count].iter().zip(&self.slopes);
@@ -86,7 +67,7 @@ impl Arrival {
     pub fn parts(&self) -> &[u32] {
         match self {
             Self::Linear(_) => &[],
-            Self::Field(nodes) | Self::Vectors(nodes) => &nodes.first_facets[1..nodes.count.max(1)],
+            Self::Vectors(nodes) => &nodes.first_facets[1..nodes.count.max(1)],
         }
     }
 
@@ -94,7 +75,7 @@ impl Arrival {
     pub fn is_zero(&self) -> bool {
         match self {
             Self::Linear(e) => *e == [0.0; 3],
-            Self::Field(nodes) | Self::Vectors(nodes) => {
+            Self::Vectors(nodes) => {
                 let mut vectors = nodes.vectors[..nodes.count].iter();
                 vectors.all(|&(_, vector)| vector == Vec3::ZERO)
             }
@@ -108,34 +89,20 @@ impl Arrival {
 /// The number of receiver points grows towards contact, by the gap between the boxes over the
 /// receiver's radius: 1, 3, 12 or 48 points. Form factors at contact are thereby integrated and
 /// not guessed from the centres.
-pub fn arrival(
-    space: &Space,
-    source: &Element,
-    receiver: &Element,
-    local: u32,
-    flatness: Flatness,
-) -> (Arrival, f32) {
+pub fn arrival(space: &Space, source: &Element, receiver: &Element, local: u32) -> (Arrival, f32) {
     let gap = source.bounds.distance(receiver.bounds);
     match receiver.shape {
         Shape::Triangle(corners) => {
             if gap > 10.0 * receiver.radius && !nears_horizon(source, receiver) {
                 let n = receiver.normal;
                 let at = receiver.centroid;
-                let vector = element_vector(space, source, at, Some(n), flatness.source);
+                let vector = element_vector(space, source, at, Some(n));
                 return (Arrival::Linear([n.dot(vector).max(0.0); 3]), 0.0);
             }
             let rule = CompositeRule::on_parts(splits_at(gap, receiver.radius));
             let mut values = [[0.0f32; 8]; MOST_POINTS / 8];
             let values = &mut values[..rule.octets.len()];
-            irradiance_at(
-                space,
-                source,
-                receiver,
-                corners,
-                flatness.source,
-                rule,
-                values,
-            );
+            irradiance_at(space, source, receiver, corners, rule, values);
             let moments = rule.moments(values);
             // Least squares over the linear functions: the mass matrix of a triangle is
             // area/12 (I + 1 1^T), its inverse 12/area (I - 1 1^T / 4).
@@ -170,12 +137,8 @@ pub fn arrival(
                 .map_or(MOST_LEVELS, |&(_, levels)| levels);
             let mut nodes = NodeVectors::NONE;
             let place = (receiver.node, local as usize);
-            node_vectors(space, source, place, levels, flatness, &mut nodes);
-            let arrival = match flatness.receiver {
-                true => Arrival::Vectors(nodes),
-                false => Arrival::Field(nodes),
-            };
-            (arrival, 0.0)
+            node_vectors(space, source, place, levels, &mut nodes);
+            (Arrival::Vectors(nodes), 0.0)
         }
         Shape::Volume => (Arrival::Linear([0.0; 3]), 0.0),
     }
@@ -242,7 +205,6 @@ fn irradiance_at(
     source: &Element,
     receiver: &Element,
     corners: [Vec3; 3],
-    flat: bool,
     rule: &CompositeRule,
     values: &mut [[f32; 8]],
 ) {
@@ -261,9 +223,7 @@ fn irradiance_at(
         for (l, value) in values.iter_mut().enumerate().take(points - 8 * at) {
             let [a, b, c] = corners;
             let p = a * octet[0][l] + b * octet[1][l] + c * octet[2][l];
-            *value = n
-                .dot(element_vector(space, source, p, Some(n), flat))
-                .max(0.0);
+            *value = n.dot(element_vector(space, source, p, Some(n))).max(0.0);
         }
     }
 }
@@ -274,22 +234,15 @@ fn node_vectors(
     source: &Element,
     (receiver, local): (NodeId, usize),
     levels: u32,
-    flatness: Flatness,
     nodes: &mut NodeVectors,
 ) {
     let shape = space.hierarchy.shape(receiver);
-    let at = |p: Vec3| element_vector(space, source, p, None, flatness.source);
+    let at = |p: Vec3| element_vector(space, source, p, None);
     match space.hierarchy.children(receiver) {
         _ if levels == 0 => {
             let vector = at(shape.centroid);
-            let (mean, slope) = match flatness.receiver {
-                true => {
-                    let mean_square = space.flux_tree.mean_square(receiver);
-                    let sent = Sender::new(source, flatness.source);
-                    sent.over(shape, mean_square, vector)
-                }
-                false => (1.0, Vec3::ZERO),
-            };
+            let mean_square = space.flux_tree.mean_square(receiver);
+            let (mean, slope) = spread_over(shape, mean_square, source, vector);
             let first = space.hierarchy.node(receiver).first_facet;
             nodes.push(local, first, vector * mean, (shape.centroid, slope));
         }
@@ -303,7 +256,7 @@ fn node_vectors(
         Some(children) => {
             let locals = local_children(space.hierarchy, children[0], local);
             for place in children.into_iter().zip(locals) {
-                node_vectors(space, source, place, levels - 1, flatness, nodes);
+                node_vectors(space, source, place, levels - 1, nodes);
             }
         }
     }

@@ -37,20 +37,6 @@ impl<const C: usize> Task<'_, '_, C> {
                     }
                 }
             }
-            Arrival::Field(nodes) => {
-                let owned = self.gatherer.first_facet as usize;
-                let mut end = receiver.element.facet_range().end;
-                for (part, first, vector) in nodes.back_to_front() {
-                    let share = f64::from(visibility.parts[part]);
-                    let light = light.map(|b| b * share);
-                    for facet in first..end {
-                        let irradiance = self.pass.context.normals[facet].dot(vector).max(0.0);
-                        let corners = [[f64::from(irradiance); C]; 3];
-                        add_corners(&mut self.gatherer.gathered[facet - owned], corners, light);
-                    }
-                    end = first;
-                }
-            }
             Arrival::Vectors(nodes) => {
                 for ((local, arrived), &share) in nodes.lights().zip(&visibility.parts) {
                     let clusters = &mut self.gatherer.clusters[local];

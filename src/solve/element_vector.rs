@@ -4,7 +4,6 @@ use super::element::{Element, Shape};
 use super::facet_frame::FacetFrame;
 use super::flux_tree::{Below, FluxNode, FluxTree};
 use super::irradiance_kernel::POINT_RADII;
-use super::power_vectors::PowerVectors;
 use super::triangle_vector::{SIX_POINT_RADII, quadrature, triangle_vector};
 use crate::cluster::Hierarchy;
 use crate::math::NodeId;
@@ -23,22 +22,12 @@ pub struct Space<'a> {
     pub flux_tree: &'a FluxTree,
     /// Where each facet lies.
     pub frames: &'a [FacetFrame],
-    /// Sums of the sources' power before each facet, and of all.
-    pub power_before: &'a [f64],
-    /// The sources' power times their normals.
-    pub power_vectors: &'a PowerVectors,
     /// Depth below a surface within which nothing counts, normalised.
     pub tau: f32,
 }
 
 /// The vector K of a unit-radiosity element at a point. A cluster must face the point fully.
-pub fn element_vector(
-    space: &Space,
-    source: &Element,
-    point: Vec3,
-    normal: Option<Vec3>,
-    flat: bool,
-) -> Vec3 {
+pub fn element_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
     match source.shape {
         Shape::Triangle(corners) => triangle_vector(
             corners,
@@ -48,26 +37,9 @@ pub fn element_vector(
             normal,
             space.tau,
         ),
-        Shape::Cluster if flat => cluster_vector(space, source.node, point, normal),
-        Shape::Cluster => wide_vector(space, source, point, normal),
+        Shape::Cluster => cluster_vector(space, source.node, point, normal),
         Shape::Volume => Vec3::ZERO,
     }
-}
-
-/// The vector K of a cluster of any shape and mean radiosity 1, seen from far away: every facet that faces the point
-/// counts by its power, as if it stood at the centroid, since lamps seldom shine the way their housings face. What hides behind other facets is left to visibility.
-fn wide_vector(space: &Space, source: &Element, point: Vec3, normal: Option<Vec3>) -> Vec3 {
-    let rel = source.centroid - point;
-    if normal.is_some_and(|n| n.dot(rel) <= 0.0) {
-        return Vec3::ZERO;
-    }
-    let inverse = 1.0 / rel.length_squared();
-    let range = source.facet_range();
-    let whole = space.power_before[range.end] - space.power_before[range.start];
-    let sent = f64::from(space.power_vectors.towards(range, -rel));
-    // As of an area that would send as much at the cluster's mean radiosity.
-    let flux = (f64::from(source.area) * (sent / whole)) as f32;
-    rel * (flux * inverse * inverse * FRAC_1_PI)
 }
 
 /// The vector K of a cluster whose facets all face the point: the sum over parts that are far enough to stand as one.

@@ -3,10 +3,9 @@
 use super::element::Element;
 use super::element_vector::{Space, element_vector};
 use super::facet_frame::FacetFrame;
-use super::fixture::{add_box, add_plate, grey, prepare, scene};
+use super::fixture::{add_plate, grey, prepare, scene};
 use super::flux_tree::FluxTree;
 use super::prepared::PreparedScene;
-use super::radiosity::Radiosity;
 use super::triangle_vector::triangle_vector;
 use crate::math::NodeId;
 use glam::{DVec3, Vec3};
@@ -62,14 +61,11 @@ fn in_space(prepared: &PreparedScene, judge: impl Fn(&Space)) {
             (b - a).cross(c - a).normalize()
         })
         .collect();
-    let light = Radiosity::<1>::new(hierarchy, |_| [2.5]);
     judge(&Space {
         scene,
         hierarchy,
         flux_tree: &FluxTree::new(scene, hierarchy),
         frames: &FacetFrame::of_all(scene, hierarchy, &normals),
-        power_before: &light.power_before,
-        power_vectors: &light.power_vectors,
         tau: 1.0e-6,
     });
 }
@@ -98,20 +94,20 @@ fn a_flat_cluster_sends_what_its_facets_send_from_contact_to_far_away() {
             for away in directions(60).filter(|d| d.dot(facing) > 0.05) {
                 let point = root.centroid + away * (radii * root.radius);
                 for normal in directions(12).map(Some).chain([None]) {
-                    let got = element_vector(space, &root, point, normal, true).as_dvec3();
+                    let got = element_vector(space, &root, point, normal).as_dvec3();
                     let facets = root.facet_range().map(|f| space.hierarchy.facets[f]);
                     let want: DVec3 = facets
                         .map(|f| lambert(space.scene.facet_corners(f), point, normal))
                         .sum();
                     let whole = match normal {
                         None => want.length(),
-                        Some(_) => element_vector(space, &root, point, None, true)
+                        Some(_) => element_vector(space, &root, point, None)
                             .as_dvec3()
                             .length(),
                     };
                     // A part that stands as one is above the horizon as a whole, or not at all.
                     let straddles = normal.is_some_and(|n| n.dot(-away).abs() * radii < 1.5);
-                    let tolerance = if straddles { 0.1 } else { 3.2e-2 };
+                    let tolerance = if straddles { 0.1 } else { 1.5e-2 };
                     // With a normal, it is the irradiance that counts.
                     let error = match normal {
                         None => (got - want).length(),
@@ -131,40 +127,11 @@ fn a_flat_cluster_sends_what_its_facets_send_from_contact_to_far_away() {
         }
         assert!(judged > 1000 && cut > 100, "{judged} {cut}");
         let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-        println!("{mean} in the mean");
-        assert!(mean < 1.0e-2, "{mean}");
-    });
-}
-
-#[test]
-fn a_cluster_of_any_shape_sends_the_sum_of_its_facets_areas_seen() {
-    let mut s = scene(vec![grey(0.5, 1.0)]);
-    let (lo, hi) = (Vec3::new(-0.1, 0.0, 0.1), Vec3::new(0.1, 0.05, 0.2));
-    add_box(&mut s, lo, hi, 3, [0; 6], false);
-    let prepared = prepare(&s);
-    in_space(&prepared, |space| {
-        let root = Element::of_node(space.scene, space.hierarchy, NodeId(0));
-        let root = Element {
-            shape: super::element::Shape::Cluster,
-            ..root
-        };
-        for away in directions(50) {
-            let point = root.centroid + away * (8.0 * root.radius);
-            let rel = (root.centroid - point).as_dvec3();
-            let mut flux = 0.0;
-            for &facet in &space.hierarchy.facets {
-                let [a, b, c] = space.scene.facet_corners(facet).map(Vec3::as_dvec3);
-                flux += (-0.5 * (b - a).cross(c - a).dot(rel)).max(0.0);
-            }
-            let want = rel * flux / (PI * rel.length_squared().powi(2));
-            let got = element_vector(space, &root, point, None, false).as_dvec3();
-            assert!(
-                (got - want).length() < 1.0e-4 * want.length(),
-                "{got} for {want}"
-            );
-            let behind = element_vector(space, &root, point, Some(away), false);
-            assert_eq!(behind, Vec3::ZERO);
-        }
+        println!(
+            "{mean} in the mean, {} at most",
+            errors.iter().fold(0.0f64, |m, &e| m.max(e))
+        );
+        assert!(mean < 2.5e-3, "{mean}");
     });
 }
 

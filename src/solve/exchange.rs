@@ -1,7 +1,7 @@
 //! One exchange: radiosity x form factor x visibility, and where its visibility comes from (paper, section 4;
 //! design, section 6).
 
-use super::arrival::{Flatness, arrival};
+use super::arrival::arrival;
 use super::claim_check::Recording;
 use super::claims::Claim;
 use super::config::Technique;
@@ -46,24 +46,17 @@ impl<const C: usize> Task<'_, '_, C> {
     ) -> Next {
         let context = self.pass.context;
         let oracle = self.pass.oracle;
-        let flatness = Flatness {
-            source: oracle.is_flat_towards(source.element, receiver.element),
-            receiver: oracle.is_flat_towards(receiver.element, source.element),
-        };
         let (unoccluded, residual) = arrival(
             &Space {
                 scene: context.scene,
                 hierarchy: context.hierarchy,
                 flux_tree: context.flux_tree,
                 frames: context.frames,
-                power_before: self.pass.power_before,
-                power_vectors: self.pass.power_vectors,
                 tau: context.tau,
             },
             source.element,
             receiver.element,
             receiver.local,
-            flatness,
         );
         if unoccluded.is_zero() {
             return Next::Done;
@@ -129,14 +122,14 @@ impl<const C: usize> Task<'_, '_, C> {
         self.outcome.statistics.exchanges += 1;
         // Below zero where a second set stands for others that the first overrated.
         if visibility != PartVisibility::even(0.0) {
-            let light = self.light_towards(source, receiver.element, flatness);
+            let light = self.light_towards(source, receiver.element);
             self.deposit(receiver, &unoccluded, &visibility, light);
         }
         Next::Done
     }
 
     /// Radiosity that counts towards a receiver, times the source's weight.
-    fn light_towards(&self, source: &Source, receiver: &Element, flat: Flatness) -> [f64; C] {
+    fn light_towards(&self, source: &Source, receiver: &Element) -> [f64; C] {
         let mean = self.radiosity(source).map(f64::from);
         let element = source.element;
         let factor = match element.shape {
@@ -144,11 +137,11 @@ impl<const C: usize> Task<'_, '_, C> {
                 let shooter = &self.pass.shooters[source.owner as usize];
                 uneven_source::triangle_towards(shooter, source.slot, (element, corners), receiver)
             }
-            Shape::Cluster if flat.source => {
+            Shape::Cluster => {
                 let moment = &self.pass.node_moment[element.node.index()];
-                uneven_source::cluster_towards(&mean, moment, element, receiver, flat.receiver)
+                uneven_source::cluster_towards(&mean, moment, element, receiver)
             }
-            _ => [1.0; C],
+            Shape::Volume => [1.0; C],
         };
         std::array::from_fn(|c| mean[c] * source.weight * factor[c])
     }

@@ -4,6 +4,8 @@ mod arrival;
 mod claim_check;
 mod claims;
 mod cluster_light;
+#[cfg(test)]
+mod cluster_tests;
 mod composite_rule;
 mod config;
 mod deposit;
@@ -39,7 +41,6 @@ mod pass_context;
 mod patch_split;
 #[cfg(feature = "plant-regressions")]
 mod planted;
-mod power_vectors;
 mod prepared;
 mod prover;
 mod push_pull;

@@ -55,13 +55,8 @@ pub struct Oracle {
 const CLUSTER_CONE_COS: f32 = 0.939_692_6;
 /// Gap, in radii of a cluster, from which it may stand as one: nearer, its outline matters.
 const CLUSTER_GAP: f32 = 2.0;
-/// Gap, in radii, from which a cluster of any shape may exchange facet by facet with the other end seen
-/// from its centroid: the directions then differ by less than a quarter of a radian.
-const WIDE_GAP: f32 = 4.0;
-/// Gap, in radii of the other end, from which a cluster of any shape may: what is seen from its centroid alone is on one
-/// side of a facet's horizon or the other, and of a wide end some is on each. A finely meshed cube in a room lost 5 % of
-/// its light without it (`bench/runs/`, accuracy/clusters.md).
-const OTHER_GAP: f32 = 2.0;
+/// Gap, in radii, from which most parts of a cluster are flat and far enough to stand as one.
+const PART_GAP: f32 = 4.0;
 /// Share of the threshold below which a pair with a non-exchanging end may be dropped (design,
 /// section 6): a thousand dropped pairs are worth one exchange.
 const DROP_SHARE: f64 = 1.0e-3;
@@ -88,32 +83,12 @@ const UNEVEN_SHARE: f64 = 1.0 / 8.0;
 /// A patch is not split once its radius is this many tau: its samples would start inside the margins.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
 
-/// Share of the threshold below which a pair with a near cluster exchanges though its outline matters: what is
-/// misplaced is at most a part of what any exchange may misplace. Without it pairs of near clusters are taken apart
-/// whatever they carry, and a pass costs the same when a thousandth of the power is unshot as when all is. Measured
-/// (`bench/runs/`, accuracy): two-rooms at epsilon 1e-4 a fifth faster at the same error; a at 1e-3 a third faster, its
-/// error up from 18.6 to 20.2 %. Nothing is lost at the default epsilon.
-const COARSE_SHARE: f64 = 0.25;
-/// Gap, in radii of each cluster, from which it may.
-const COARSE_GAP: f32 = 0.3;
-
-/// True where both ends stand far enough apart for anything to be exchanged between them as they are.
-fn stand_apart(source: &Element, receiver: &Element) -> bool {
-    let gap = source.bounds.distance(receiver.bounds);
-    let far = |element: &Element| match element.shape {
-        Shape::Triangle(_) => true,
-        Shape::Volume => false,
-        Shape::Cluster => gap > COARSE_GAP * element.radius,
-    };
-    far(source) && far(receiver)
-}
-
 /// About how many parts of an element exchange over a gap: those small enough to stand as one.
 fn parts_at(element: &Element, gap: f32) -> f32 {
     if element.is_triangle() {
         return 1.0;
     }
-    let radii = WIDE_GAP * element.radius / gap.max(f32::MIN_POSITIVE);
+    let radii = PART_GAP * element.radius / gap.max(f32::MIN_POSITIVE);
     (radii * radii).clamp(1.0, element.facet_count as f32)
 }
 
@@ -140,9 +115,6 @@ impl Oracle {
             let bound = power * f64::from(form_factor_bound(source, receiver));
             if let Some(play) = self.play(SPLIT_STAKE, receiver, bound, weight) {
                 return play;
-            }
-            if bound < COARSE_SHARE * self.threshold * weight && stand_apart(source, receiver) {
-                return Decision::Exchange(power * f64::from(oracle_form_factor(source, receiver)));
             }
             return match (source_exchanges, receiver_exchanges) {
                 (true, false) => Decision::SplitReceiver(bound),
@@ -254,23 +226,19 @@ impl Oracle {
         }
     }
 
-    /// True when energy may be exchanged at `element` with `other` as the other end: any triangle, and a
-    /// cluster that is far enough for its outline not to matter.
+    /// True when energy may be exchanged at `element` with `other` as the other end: any triangle, and a cluster that is
+    /// far enough for its outline not to matter and for whose normals one vector stands: a narrow cone, and all of `other` in front.
+    /// What is bent hides parts of itself, and one visibility says of none which (`bench/runs/`, accuracy/clusters.md).
     fn exchanges(&self, element: &Element, other: &Element) -> bool {
         match element.shape {
             Shape::Triangle(_) => true,
             Shape::Volume => false,
             Shape::Cluster => {
-                let gap = element.bounds.distance(other.bounds);
-                (gap > WIDE_GAP * element.radius && gap > OTHER_GAP * other.radius)
-                    || (gap > CLUSTER_GAP * element.radius && self.is_flat_towards(element, other))
+                element.bounds.distance(other.bounds) > CLUSTER_GAP * element.radius
+                    && element.cone_cos >= CLUSTER_CONE_COS
+                    && element.faces_fully(other, self.tau)
             }
         }
-    }
-
-    /// True when one vector stands for a cluster's normals: a narrow cone, and all of `other` in front.
-    pub fn is_flat_towards(&self, element: &Element, other: &Element) -> bool {
-        element.cone_cos >= CLUSTER_CONE_COS && element.faces_fully(other, self.tau)
     }
 
     fn can_split(&self, element: &Element) -> bool {

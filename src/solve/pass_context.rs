@@ -8,7 +8,6 @@ use super::guarantees::Guarantees;
 use super::observer::Observer;
 use super::oracle::Oracle;
 use super::pair::{Source, Target, exchange_key};
-use super::power_vectors::PowerVectors;
 use super::radiosity::Shooter;
 use super::sampled_element::{ReceiverSurface, SourceSurface};
 use crate::cluster::Hierarchy;
@@ -39,8 +38,6 @@ pub struct SolveContext<'a> {
     pub elements: &'a [Element],
     /// The hierarchy, for sums over a cluster.
     pub flux_tree: &'a FluxTree,
-    /// Unit normal of each facet.
-    pub normals: &'a [Vec3],
     /// Where points on each facet lie.
     pub frames: &'a [FacetFrame],
     /// How many facets before each are touched by solids, and all at the end.
@@ -76,7 +73,6 @@ pub(super) struct Pass<'a, const C: usize> {
     pub(super) node_variance: &'a [f32],
     pub(super) node_moment: &'a [[Vec3; C]],
     pub(super) power_before: &'a [f64],
-    pub(super) power_vectors: &'a PowerVectors,
     pub(super) is_even: &'a [bool],
     pub(super) owner_of_facet: &'a [u32],
     pub(super) first_facets: &'a [u32],

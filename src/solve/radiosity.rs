@@ -8,7 +8,6 @@ use super::cluster_light::ClusterLight;
 use super::facet_frame::FacetFrame;
 use super::ownership::owner_cut;
 use super::patch_split::{PatchSplit, relative_variance};
-use super::power_vectors::PowerVectors;
 use super::solution::PatchPath;
 use crate::cluster::{Hierarchy, NodeKind};
 use crate::math::{FacetId, NodeId};
@@ -127,8 +126,6 @@ pub struct Radiosity<const C: usize> {
     pub node_moment: Vec<[Vec3; C]>,
     /// Sums of the unshot power, over all channels, of the facets before each facet; one longer.
     pub power_before: Vec<f64>,
-    /// The same power of each facet, times its normal.
-    pub power_vectors: PowerVectors,
     /// Whether each facet's light is even.
     pub is_even: Vec<bool>,
     /// The owner of each facet.
@@ -162,7 +159,6 @@ impl<const C: usize> Radiosity<C> {
             node_variance: vec![0.0; hierarchy.nodes.len()],
             node_moment: vec![[Vec3::ZERO; C]; hierarchy.nodes.len()],
             power_before: vec![0.0; hierarchy.facets.len() + 1],
-            power_vectors: PowerVectors::zero(hierarchy.facets.len()),
             is_even: vec![true; hierarchy.facets.len()],
             owner_of_facet,
             first_facets: cut
@@ -224,8 +220,6 @@ impl<const C: usize> Radiosity<C> {
                 let radiosity: f32 = self.node_unshot[index].iter().sum();
                 self.power_before[node.first_facet as usize + 1] =
                     f64::from(radiosity) * f64::from(hierarchy.shapes[index].area);
-                let vector = hierarchy.shapes[index].area_vector * radiosity;
-                self.power_vectors.set(node.first_facet as usize, vector);
             }
         }
         for facet in 1..self.power_before.len() {
@@ -282,6 +276,5 @@ impl<const C: usize> Radiosity<C> {
             + self.node_unshot.len() * (size_of::<[f32; C]>() + size_of::<[Vec3; C]>())
             + self.power_before.len() * size_of::<f64>()
             + self.is_even.len()
-            + self.power_vectors.bytes()
     }
 }

@@ -115,7 +115,6 @@ impl<'a, const C: usize> Solver<'a, C> {
             guarantees: self.guarantees,
             elements: &self.elements,
             flux_tree: &self.flux_tree,
-            normals: &self.table.normals,
             frames: &self.table.frames,
             touched_before: &self.table.touched_before,
             area_before: &self.table.area_before,

@@ -46,7 +46,7 @@ pub(super) fn triangle_towards<const C: usize>(
 
 /// The same of a flat cluster of this mean radiosity and its first moment ([`Radiosity::node_moment`]), far enough away for
 /// the view of it to change little: the kernel `q h / |d|^4` gains `n_r / h - 4 d / |d|^2` of itself along each axis of the
-/// source's plane, `h = n_r . d`, without the first term where the receiver is not `flat`.
+/// source's plane, `h = n_r . d`.
 ///
 /// [`Radiosity::node_moment`]: super::radiosity::Radiosity::node_moment
 pub(super) fn cluster_towards<const C: usize>(
@@ -54,12 +54,11 @@ pub(super) fn cluster_towards<const C: usize>(
     moment: &[Vec3; C],
     source: &Element,
     receiver: &Element,
-    flat: bool,
 ) -> [f64; C] {
     let d = source.centroid - receiver.centroid;
     let h = receiver.normal.dot(d);
     let mut gain = d * (-4.0 / d.length_squared());
-    if flat && h > 0.0 {
+    if h > 0.0 {
         gain += receiver.normal / h;
     }
     std::array::from_fn(|c| match mean[c] > 0.0 {
