@@ -19,6 +19,7 @@ const POINTS_OF_A_CLUSTER: [(f32, u32); 3] = [(10.0, 0), (4.0, 1), (0.0, MOST_LE
 const MOST_LEVELS: u32 = PARTS.ilog2();
 
 /// The irradiance from a unit-radiosity source over a receiver, unoccluded.
+#[allow(clippy::large_enum_variant, reason = "an exchange allocates nothing")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
     /// On a triangle: the linear function that fits best, by its values at the three corners.

@@ -252,9 +252,9 @@ impl<const C: usize> Radiosity<C> {
         for child in [first, first + 1] {
             let shape = &hierarchy.shapes[child];
             let (share, way) = (shape.area / whole.area, shape.centroid - whole.centroid);
-            for c in 0..C {
+            for (c, moment) in moment.iter_mut().enumerate() {
                 let more = self.node_unshot[child][c] - self.node_unshot[index][c];
-                moment[c] += (self.node_moment[child][c] + way * more) * share;
+                *moment += (self.node_moment[child][c] + way * more) * share;
             }
         }
         moment
