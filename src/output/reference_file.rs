@@ -40,7 +40,7 @@ pub struct ReferenceMeta {
     /// The asked number of faces, if a sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faces: Option<u32>,
-    /// Whether the asked error was reached before time was up.
+    /// Whether every face was given the paths that the asked error takes, before time was up.
     pub reached: bool,
     /// Rounds run: with equal input and seed, equal rounds give equal faces.
     pub rounds: u32,
@@ -54,6 +54,11 @@ pub struct ReferenceMeta {
     pub mean_stderr: f64,
     /// The same over the area-weighted mean radiosity; 0 where all is black.
     pub mean_stderr_relative: f64,
+    /// The error that a perfect solution would show, as `certilux error` has it: relative RMS of reflected
+    /// radiosity; 0 where nothing is reflected.
+    pub noise: f64,
+    /// The same in the metric of the bias.
+    pub bias_noise: f64,
 }
 
 impl ReferenceMeta {

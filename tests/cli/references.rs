@@ -112,6 +112,51 @@ fn a_solution_is_compared() {
     folder.line(&line).ends_with(1, &line).says(&["above"]);
 }
 
+/// How well a reference is known is one figure, whoever prints it.
+#[test]
+fn a_reference_says_the_noise_that_a_comparison_finds() {
+    let folder = Folder::new();
+    // Faces of many sizes, some of them dark, in three colours.
+    let measured = folder.line("reference builtin:cornell --out ref.json --error 0.2");
+    measured.ends_with(0, "reference");
+    folder
+        .line(&format!("solve builtin:cornell --out solved {COARSE}"))
+        .ends_with(0, "solve");
+    let compared = folder.line("error solved ref.json --json error.json");
+    compared.ends_with(0, "error");
+    let figures = reference(&folder, "error.json");
+    let meta = &reference(&folder, "ref.json")["meta"];
+    for key in ["noise", "bias_noise"] {
+        let [measured, compared] = [&meta[key], &figures[key]].map(|x| x.as_f64().unwrap());
+        assert!(measured > 0.0, "{key}");
+        assert!(
+            (measured / compared - 1.0).abs() < 1e-12,
+            "{key}: {measured} is not {compared}"
+        );
+    }
+    let percent = |key: &str| 100.0 * meta[key].as_f64().unwrap();
+    let says = format!(
+        "{:.4} % of RMS error, {:.4} % of bias",
+        percent("noise"),
+        percent("bias_noise")
+    );
+    for run in [&measured, &compared] {
+        assert!(run.stdout.contains(&says), "{says}: {}", run.stdout);
+    }
+}
+
+/// Where nothing is reflected there is nothing to be unsure of.
+#[test]
+fn a_black_room_is_measured_without_noise() {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder.write("room.mtl", ROOM[1].replace("Kd 0.5 0.5 0.5", "Kd 0 0 0"));
+    folder
+        .line("reference room.obj --out ref.json --error 0.5")
+        .ends_with(0, "black");
+    assert_eq!(reference(&folder, "ref.json")["meta"]["noise"], 0.0);
+}
+
 /// A reference of two faces of the room, written by hand.
 fn by_hand(material: bool) -> Value {
     let mut faces = json!([
