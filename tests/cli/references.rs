@@ -1,8 +1,10 @@
 //! `reference` and `error`.
 
-use crate::command::{COARSE, Folder, ROOM, write_room};
+use crate::command::{COARSE, Folder, Outcome, ROOM, write_room};
 use serde_json::{Value, json};
 use std::fs;
+use std::io::Write;
+use std::process::Stdio;
 
 fn reference(folder: &Folder, name: &str) -> Value {
     serde_json::from_slice(&fs::read(folder.path(name)).unwrap()).unwrap()
@@ -249,6 +251,55 @@ fn another_scene_is_refused() {
     .unwrap();
     let run = folder.line(line);
     assert_eq!(run.ends_with(0, "unknown").stderr, "");
+}
+
+/// Read once, a reference may come from a pipe, and still says of which scene it is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_reference_from_a_pipe_is_known_by_its_scene() {
+    let folder = measured_room();
+    folder.write("other.obj", ROOM[0].replace("room.mtl", "other.mtl"));
+    folder.write("other.mtl", ROOM[1].replace("Ke 10 10 10", "Ke 20 20 20"));
+    folder
+        .line(&format!("solve other.obj --out others {COARSE}"))
+        .ends_with(0, "solve");
+    let text = fs::read(folder.path("ref.json")).unwrap();
+    let piped = |line: &str| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let mut run = folder
+            .command(&words)
+            .stdin(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Dropped at the end of the line: that is the end of the file.
+        run.stdin.take().unwrap().write_all(&text).unwrap();
+        Outcome::of(run.wait_with_output().unwrap())
+    };
+    let own = piped("error solved /dev/stdin --max 10");
+    own.ends_with(0, "its own scene");
+    assert_eq!(own.stdout, folder.line("error solved ref.json").stdout);
+    piped("error others /dev/stdin --max 10")
+        .ends_with(2, "another scene")
+        .says(&["--max", "was measured from another scene"]);
+}
+
+/// What other programs keep in `meta` is their affair.
+#[test]
+fn meta_may_hold_anything() {
+    let folder = measured_room();
+    for meta in [
+        json!([1]),
+        json!("me"),
+        json!(null),
+        json!({ "scene_hash": 7 }),
+        json!({ "scene_hash": null, "scene": "x" }),
+    ] {
+        let mut file = by_hand(true);
+        file["meta"] = meta.clone();
+        folder.write("ref.json", file.to_string());
+        let run = folder.line("error solved ref.json --max 10");
+        assert_eq!(run.ends_with(0, &meta.to_string()).stderr, "");
+    }
 }
 
 #[test]
