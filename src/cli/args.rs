@@ -144,9 +144,12 @@ pub struct SolveCommand {
     #[arg(long)]
     pub no_view: bool,
     /// Go on from the checkpoint in DIR, if there is one; if DIR holds this very solve already, make only the files that it
-    /// lacks, or that were made with another --up.
+    /// lacks, or that were made with another --up. Another finished solve in DIR is refused, not overwritten.
     #[arg(long, conflicts_with = "check_claims")]
     pub resume: bool,
+    /// With --resume, solve anew where DIR holds another finished solve: what a batch does whose list has changed.
+    #[arg(long, requires = "resume", hide = true)]
+    pub renew: bool,
     /// Keep no checkpoint after each pass.
     #[arg(long)]
     pub no_checkpoint: bool,

@@ -217,7 +217,8 @@ impl<'a> Batch<'a> {
             words.push(format!("--max-memory={share}"));
         }
         if self.command.resume {
-            words.push("--resume".to_owned());
+            // The list says what belongs into the folders.
+            words.extend(["--resume", "--renew"].map(str::to_owned));
         }
         words.push(format!("--out={}", self.folder(index).display()));
         words.push("--".to_owned());

@@ -43,7 +43,9 @@ fn budget(
     command: &ErrorBudgetCommand,
     config: &SolveConfig,
 ) -> Result<(), CliError> {
-    let records = read_reference(&command.reference).map_err(CliError::Solution)?;
+    let records = read_reference(&command.reference)
+        .map_err(CliError::Solution)?
+        .faces;
     let scene = session.stops_at_once(|| load_scene(&command.scene))?;
     check_faces(&records, &scene)?;
     let truth = true_faces(&records, Some(&scene))?;

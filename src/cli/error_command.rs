@@ -8,8 +8,7 @@ use super::scene_source::read_scene;
 use super::session::{Session, print_line};
 use super::solved_scene::scene_of_solution;
 use crate::output::{
-    read_ply, read_reference, reference_scene_hash, scene_hash, solved_lights, true_faces,
-    write_json,
+    HashText, read_ply, read_reference, scene_hash, solved_lights, true_faces, write_json,
 };
 use crate::reference::{FaceError, SolutionError, SolvedLights, TrueFace, solution_error};
 use crate::scene::{LoadConfig, Scene, Side};
@@ -31,7 +30,7 @@ pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
         command.solution.clone()
     };
     plan(command, &path).check()?;
-    let records = read_reference(&command.reference).map_err(CliError::Solution)?;
+    let reference = read_reference(&command.reference).map_err(CliError::Solution)?;
     let mesh = read_ply(&path).map_err(CliError::Solution)?;
     let load = LoadConfig {
         clamp_reflectance: true,
@@ -42,8 +41,8 @@ pub fn run(session: &Session, command: &ErrorCommand) -> Result<(), CliError> {
         .as_ref()
         .map(|source| read_scene(source, &load))
         .transpose()?;
-    check_scenes(command, &path, scene.as_ref())?;
-    let truth = true_faces(&records, scene.as_ref())?;
+    check_scenes(command, &reference.scene_hash, &path, scene.as_ref())?;
+    let truth = true_faces(&reference.faces, scene.as_ref())?;
     let lights = solved_lights(&mesh);
     let error = solution_error(&truth, &lights)?;
     if !error.missing.is_empty() {
@@ -94,17 +93,15 @@ fn plan(command: &ErrorCommand, solution: &PathBuf) -> FilePlan {
 /// solution by the reference of another scene; without a check that is worth a warning.
 fn check_scenes(
     command: &ErrorCommand,
+    of_reference: &Option<HashText>,
     solution: &Path,
     scene: Option<&Scene>,
 ) -> Result<(), CliError> {
-    let [of_reference, of_solution] = [
-        reference_scene_hash(&command.reference),
-        scene_of_solution(solution),
-    ];
+    let of_solution = scene_of_solution(solution);
     if let (Some(scene), Some(source)) = (scene, &command.scene) {
         let hash = scene_hash(scene);
         for (known, path, was) in [
-            (&of_reference, command.reference.as_path(), "measured"),
+            (of_reference, command.reference.as_path(), "measured"),
             (&of_solution, solution, "solved"),
         ] {
             if known.as_ref().is_some_and(|known| *known != hash) {
@@ -116,7 +113,7 @@ fn check_scenes(
             }
         }
     }
-    match (of_reference, of_solution) {
+    match (of_reference, &of_solution) {
         (Some(reference), Some(solved)) if reference != solved => {
             let text = format!(
                 "{} was measured from another scene than {} was solved from: their contents differ",

@@ -1,5 +1,5 @@
 //! A folder that holds a solve already: `--resume` does not solve again, and makes anew only what is missing beside the
-//! solution or was made with other options.
+//! solution or was made with other options. Another solve than the one asked for is not overwritten.
 
 use super::args::SolveCommand;
 use super::checkpointing::has_checkpoint;
@@ -8,10 +8,12 @@ use super::folder_lock::FolderLock;
 use super::output_files::{asked_outputs, write_outputs};
 use super::session::Session;
 use crate::output::{
-    Fingerprint, OutputError, OutputsBlock, Staging, file_hash, read_outputs, read_ply,
+    Fingerprint, HashText, OutputError, OutputsBlock, Staging, file_hash, read_outputs, read_ply,
     replace_outputs, write_text,
 };
+use serde::Deserialize;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -39,6 +41,25 @@ impl FinishedSolve {
                 .is_ok_and(|hash| content["solution"] == hash);
         let outputs = read_outputs(&stats).ok()?;
         is_this.then_some(Self { stats, outputs })
+    }
+
+    /// Refuses a folder that holds another finished solve than that of this fingerprint. One with a checkpoint is judged by
+    /// that; results that do not say what they are of are none of ours.
+    ///
+    /// # Errors
+    /// [`CliError::Argument`] with what differs.
+    pub fn refuse_another(folder: &Path, fingerprint: &Fingerprint) -> Result<(), CliError> {
+        if has_checkpoint(folder) || !folder.join("solution.ply").is_file() {
+            return Ok(());
+        }
+        let Some(difference) = difference(&folder.join("stats.json"), fingerprint) else {
+            return Ok(());
+        };
+        Err(CliError::Argument(format!(
+            "--resume: {} holds another solve, which is finished: {difference}; without --resume it is solved anew and overwritten, \
+             with another --out it stays",
+            folder.display()
+        )))
     }
 
     /// Makes what `command` asks for and the folder lacks, and says so.
@@ -85,7 +106,7 @@ impl FinishedSolve {
 
     /// Each file that is to be made, with what was different about the one before it.
     fn reasons(&self, lacking: &OutputsBlock) -> Vec<String> {
-        let reason = |name: &String, options: &std::collections::BTreeMap<String, String>| {
+        let reason = |name: &String, options: &BTreeMap<String, String>| {
             let before = self.outputs.get(name)?;
             let changes: Vec<String> = (options.iter())
                 .filter_map(|(flag, now)| {
@@ -102,4 +123,31 @@ impl FinishedSolve {
             })
             .collect()
     }
+}
+
+/// In what the solve that wrote `stats` differs from that of `fingerprint`; nothing where it is the same or not said.
+fn difference(stats: &Path, fingerprint: &Fingerprint) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Content {
+        scene: HashText,
+    }
+    #[derive(Deserialize)]
+    struct Stats {
+        certilux: String,
+        content: Content,
+        settings: BTreeMap<String, String>,
+    }
+    let stats: Stats = serde_json::from_slice(&fs::read(stats).ok()?).ok()?;
+    let here = env!("CARGO_PKG_VERSION");
+    let version = (stats.certilux != here)
+        .then(|| format!("certilux is {} there and {here} here", stats.certilux));
+    let found = Fingerprint {
+        scene: stats.content.scene,
+        settings: stats.settings,
+    };
+    let differences: Vec<String> = version
+        .into_iter()
+        .chain(fingerprint.difference(&found))
+        .collect();
+    (!differences.is_empty()).then(|| differences.join("; "))
 }

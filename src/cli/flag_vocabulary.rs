@@ -89,7 +89,9 @@ fn is_offered(arg: &Arg) -> bool {
         arg.get_action(),
         ArgAction::SetTrue | ArgAction::Set | ArgAction::Append
     );
-    !arg.is_positional() && !arg.is_required_set() && takes && !names_a_file
+    // What is hidden is said by one command to another.
+    let is_shown = !arg.is_hide_set();
+    !arg.is_positional() && !arg.is_required_set() && is_shown && takes && !names_a_file
 }
 
 impl Vocabulary for FlagVocabulary {
@@ -159,7 +161,9 @@ mod tests {
         for key in ["epsilon", "technique", "no-view", "sides", "quiet"] {
             assert!(solve.is_switch(key).is_some(), "{key}");
         }
-        for key in ["out", "threads", "scene", "help", "version", "min_area"] {
+        for key in [
+            "out", "threads", "scene", "help", "version", "min_area", "renew",
+        ] {
             assert!(solve.is_switch(key).is_none(), "{key}");
         }
         assert_eq!(solve.is_switch("no-view"), Some(true));

@@ -10,7 +10,7 @@ use super::session::Session;
 use super::solve_args::SceneArgs;
 use super::solve_command::with_threads;
 use crate::embree::DeviceConfig;
-use crate::output::{ReferenceMeta, mean_radiosity, scene_hash, write_reference};
+use crate::output::{ReferenceMeta, mean_radiosity, noise_of_faces, scene_hash, write_reference};
 use crate::reference::{Reference, ReferenceConfig, ReferenceError, TracedScene, measure};
 use crate::scene::Scene;
 use crate::solve::SolveConfig;
@@ -73,6 +73,7 @@ pub fn measure_scene(
     } else {
         0.0
     };
+    let noise = noise_of_faces(&reference.faces);
     let sides = arguments.reading.sides.to_possible_value();
     let meta = ReferenceMeta {
         format: ReferenceMeta::FORMAT,
@@ -94,6 +95,8 @@ pub fn measure_scene(
         seconds: reference.seconds,
         mean_stderr: stderr,
         mean_stderr_relative: relative,
+        noise: noise.map_or(0.0, |n| n.relative_rms),
+        bias_noise: noise.map_or(0.0, |n| n.bias),
     };
     session.say(format_args!(
         "{}: {} faces and sides, {} paths, {} rays, {} round(s), {:.2} s",
@@ -105,8 +108,9 @@ pub fn measure_scene(
         meta.seconds
     ));
     session.say(format_args!(
-        "mean radiosity {radiosity:.6} W/m2, mean standard error {:.3} % of it{}",
-        100.0 * relative,
+        "mean radiosity {radiosity:.6} W/m2; noise {:.4} % of RMS error, {:.4} % of bias{}",
+        100.0 * meta.noise,
+        100.0 * meta.bias_noise,
         if meta.reached {
             ""
         } else {

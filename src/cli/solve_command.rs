@@ -74,10 +74,13 @@ fn solve_and_write(
         "scene loaded"
     );
     let fingerprint = Fingerprint::new(&scene, settings(command, config));
-    if command.resume
-        && let Some(finished) = FinishedSolve::find(&command.out, &fingerprint)
-    {
-        return finished.complete(session, command);
+    if command.resume {
+        if let Some(finished) = FinishedSolve::find(&command.out, &fingerprint) {
+            return finished.complete(session, command);
+        }
+        if !command.renew {
+            FinishedSolve::refuse_another(&command.out, &fingerprint)?;
+        }
     }
     let estimate = MemoryEstimate::of(&scene, config, !command.no_view);
     check_estimate(estimate, command.max_memory)?;

@@ -74,7 +74,8 @@ fn sweep_and_write(
     // What was named is looked at before anything is written.
     let named = (command.reference.as_deref())
         .map(|path| read_reference(path).map_err(CliError::Solution))
-        .transpose()?;
+        .transpose()?
+        .map(|reference| reference.faces);
     let scene = session.stops_at_once(|| load_scene(&command.scene))?;
     if let Some(records) = &named {
         check_faces(records, &scene)?;
@@ -151,7 +152,7 @@ fn own_reference(
         let (meta, reference) = measure_scene(session, scene.clone(), &command.scene, &config)?;
         write_reference(&path, &meta, &reference, &session.interrupted)?;
     }
-    let records = read_reference(&path).map_err(CliError::Solution)?;
+    let records = read_reference(&path).map_err(CliError::Solution)?.faces;
     check_faces(&records, scene)?;
     Ok(records)
 }

@@ -5,6 +5,9 @@ use super::typed_number::{parse_finite, parse_positive};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+/// Clusters that are shown unless told: few enough for their colours to differ.
+pub const DEFAULT_CLUSTERS: u32 = 64;
+
 /// `certilux view`
 #[derive(Debug, clap::Args)]
 #[command(
@@ -73,7 +76,7 @@ pub struct ViewCommand {
     #[arg(long, value_name = "FILE.obj")]
     pub scene: Option<OsString>,
     /// Clusters of --show clusters: the hierarchy is cut where it has this many nodes.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_CLUSTERS, value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub clusters: u32,
     /// Upper end of the scale of false colours, so that pictures can be compared [default: chosen by what is seen].
     #[arg(long, value_name = "X", value_parser = parse_positive, allow_negative_numbers = true)]

@@ -6,7 +6,7 @@ use super::logs;
 use super::render::{PictureFormat, write_picture};
 use super::session::{Session, print_line};
 use super::solve_command::with_threads;
-use super::view_args::{ShowArg, ViewCommand};
+use super::view_args::{DEFAULT_CLUSTERS, ShowArg, ViewCommand};
 use super::view_exhibit::{Subject, exhibit};
 use crate::embree::{Device, DeviceConfig};
 use crate::output::{Camera, Picture, PinHole, Shading, UpAxis, View, ViewConfig};
@@ -16,6 +16,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Renders DIR/solution.ply.
 pub fn run(session: &Session, command: &ViewCommand) -> Result<(), CliError> {
     check(command)?;
+    for flag in unused(command)? {
+        logs::warn(format_args!("{flag}"));
+    }
     let results = ["solution.ply", "stats.json"].map(|name| command.solved.join(name));
     let plan = match &command.scene {
         Some(scene) => FilePlan::default().scene("--scene", scene),
@@ -34,8 +37,7 @@ fn check(command: &ViewCommand) -> Result<(), CliError> {
     let format = PictureFormat::of(&command.out)?;
     let show = command.show;
     let layers = matches!(show, ShowArg::Radiance | ShowArg::Irradiance);
-    let name = clap::ValueEnum::to_possible_value(&show)
-        .map_or_else(String::new, |v| v.get_name().to_owned());
+    let name = show_name(show);
     if format == PictureFormat::Exr && !layers {
         return refuse(format!(
             "--show {name} makes a picture for the eye: --out must end in .png"
@@ -53,6 +55,57 @@ fn check(command: &ViewCommand) -> Result<(), CliError> {
         (ShowArg::Error, Some(_)) | (_, None) => Ok(()),
         (_, Some(_)) => refuse(format!("--show {name} compares with no --reference")),
     }
+}
+
+/// What `--show` is told.
+fn show_name(show: ShowArg) -> String {
+    let value = clap::ValueEnum::to_possible_value(&show);
+    value.map_or_else(String::new, |v| v.get_name().to_owned())
+}
+
+/// The flags that change nothing about this picture, with the reason. They are no reason to refuse it: the environment or a
+/// file may give them for all pictures.
+fn unused(command: &ViewCommand) -> Result<Vec<String>, CliError> {
+    let show = command.show;
+    let layers = PictureFormat::of(&command.out)? == PictureFormat::Exr;
+    let what = match layers {
+        true => "an .exr".to_owned(),
+        false => format!("--show {}", show_name(show)),
+    };
+    let has_scale = matches!(show, ShowArg::Irradiance | ShowArg::Error | ShowArg::Rays);
+    let has_tones = show.has_light() && !has_scale;
+    let flags = [
+        (
+            command.exposure != 0.0 && (layers || !has_tones),
+            "--exposure",
+            format!("{what} holds values or colours that no exposure changes"),
+        ),
+        (
+            command.greatest.is_some() && (layers || !has_scale),
+            "--greatest",
+            format!("{what} has no scale of false colours"),
+        ),
+        (
+            command.flat && !show.has_light(),
+            "--flat",
+            format!("{what} shows no light that could be shaded"),
+        ),
+        (
+            command.clusters != DEFAULT_CLUSTERS && show != ShowArg::Clusters,
+            "--clusters",
+            format!("{what} shows no clusters"),
+        ),
+        (
+            command.scene.is_some() && show.has_light() && !show.needs_scene(),
+            "--scene",
+            format!("{what} needs the solution only"),
+        ),
+    ];
+    Ok(flags
+        .into_iter()
+        .filter(|(is_unused, ..)| *is_unused)
+        .map(|(_, flag, reason)| format!("{flag} is not used: {reason}"))
+        .collect())
 }
 
 fn take(session: &Session, command: &ViewCommand) -> Result<(), CliError> {

@@ -69,7 +69,7 @@ impl Subject {
         let matter = match &command.reference {
             None => Matter::Light,
             Some(reference) => {
-                let records = read_reference(reference).map_err(CliError::Solution)?;
+                let records = read_reference(reference).map_err(CliError::Solution)?.faces;
                 let load = LoadConfig {
                     clamp_reflectance: true,
                     ..LoadConfig::default()

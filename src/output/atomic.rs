@@ -242,11 +242,24 @@ mod tests {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).unwrap();
-        // The superuser may write anyway; then there is nothing to refuse.
-        let superuser = File::create(folder.path().join("probe")).is_ok();
+        let probe = folder.path().join("probe");
+        let superuser = File::create(&probe).is_ok();
         let outcome = bytes(&folder.path().join("a.bin"), b"x");
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
-        assert_eq!(outcome.is_ok(), superuser);
+        if !superuser {
+            assert!(matches!(outcome.unwrap_err(), OutputError::Io { .. }));
+            assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+            return;
+        }
+        // Permissions do not bind the superuser; a folder that takes nobody's files does.
+        let Some(taken_by_none) = Some(Path::new("/proc")).filter(|p| p.is_dir()) else {
+            eprintln!("NOT TESTED: a folder that the superuser may not write into");
+            return;
+        };
+        let name = taken_by_none.join("certilux.bin");
+        let error = bytes(&name, b"x").unwrap_err();
+        assert!(matches!(error, OutputError::Io { .. }), "{error}");
+        assert!(error.to_string().contains("/proc/certilux.bin"), "{error}");
     }
 
     #[test]

@@ -84,10 +84,10 @@ pub use ply_reader::read_ply;
 pub use ply_writer::write_ply;
 pub use png_file::write_png;
 pub use ray_density::{RaysByReceiver, ray_density};
-pub use reference_comparison::{ComparisonError, solved_lights, true_faces};
+pub use reference_comparison::{ComparisonError, noise_of_faces, solved_lights, true_faces};
 pub use reference_file::{
-    ReferenceFace, ReferenceMeta, ReferenceRequest, mean_radiosity, read_reference,
-    reference_scene_hash, write_reference,
+    ReadReference, ReferenceFace, ReferenceMeta, ReferenceRequest, mean_radiosity, read_reference,
+    write_reference,
 };
 pub use report::{ReportError, write_report};
 pub use solved_mesh::{SolvedFace, SolvedMesh};

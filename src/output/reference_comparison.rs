@@ -2,7 +2,7 @@
 
 use super::reference_file::{ReferenceFace, mean};
 use super::solved_mesh::SolvedMesh;
-use crate::reference::{SolvedLights, TrueFace};
+use crate::reference::{FaceRadiosity, ReferenceNoise, SolvedLights, TrueFace, reference_noise};
 use crate::scene::{Scene, Side};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -84,6 +84,15 @@ pub fn true_faces(
         });
     }
     Ok(faces)
+}
+
+/// The noise of a measurement, from its faces that reflect, as a comparison with its file has it; nothing where no face
+/// reflects any light.
+pub fn noise_of_faces(faces: &[FaceRadiosity]) -> Option<ReferenceNoise> {
+    let records: Vec<ReferenceFace> = faces.iter().map(ReferenceFace::from).collect();
+    // Their records say what they are made of.
+    let truth = true_faces(&records, None).ok()?;
+    reference_noise(&truth).ok()
 }
 
 /// The light of a solution by source face and side.

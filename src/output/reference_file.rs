@@ -40,7 +40,7 @@ pub struct ReferenceMeta {
     /// The asked number of faces, if a sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faces: Option<u32>,
-    /// Whether the asked error was reached before time was up.
+    /// Whether every face was given the paths that the asked error takes, before time was up.
     pub reached: bool,
     /// Rounds run: with equal input and seed, equal rounds give equal faces.
     pub rounds: u32,
@@ -54,6 +54,11 @@ pub struct ReferenceMeta {
     pub mean_stderr: f64,
     /// The same over the area-weighted mean radiosity; 0 where all is black.
     pub mean_stderr_relative: f64,
+    /// The error that a perfect solution would show, as `certilux error` has it: relative RMS of reflected
+    /// radiosity; 0 where nothing is reflected.
+    pub noise: f64,
+    /// The same in the metric of the bias.
+    pub bias_noise: f64,
 }
 
 impl ReferenceMeta {
@@ -89,18 +94,13 @@ impl ReferenceRequest {
     }
 }
 
-/// Hash of the scene that the reference in a file was measured of; nothing where the file does not say.
-pub fn reference_scene_hash(path: &Path) -> Option<HashText> {
-    #[derive(Deserialize)]
-    struct Meta {
-        scene_hash: HashText,
-    }
-    #[derive(Deserialize)]
-    struct File {
-        meta: Meta,
-    }
-    let file: File = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
-    Some(file.meta.scene_hash)
+/// A reference as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadReference {
+    /// Its records, in the file's order: at least one, none of a face and side twice.
+    pub faces: Vec<ReferenceFace>,
+    /// Hash of the scene that it was measured of; nothing where the file does not say.
+    pub scene_hash: Option<HashText>,
 }
 
 /// Area-weighted means of radiosity and of its standard error, mean of the channels, in W/m2.
@@ -192,14 +192,16 @@ pub fn write_reference(
     })
 }
 
-/// Reads the records of a reference; `meta` may hold anything or be absent.
+/// Reads a reference; `meta` may hold anything or be absent.
 ///
 /// # Errors
 /// [`OutputError::Io`] where it cannot be read, [`OutputError::NotAReference`] with the reason where it is
 /// none: no JSON, no faces, a record twice, a number out of range.
-pub fn read_reference(path: &Path) -> Result<Vec<ReferenceFace>, OutputError> {
+pub fn read_reference(path: &Path) -> Result<ReadReference, OutputError> {
     #[derive(Deserialize)]
     struct File {
+        #[serde(default)]
+        meta: serde_json::Value,
         faces: Vec<ReferenceFace>,
     }
     let wrong = |reason: String| OutputError::NotAReference {
@@ -224,7 +226,10 @@ pub fn read_reference(path: &Path) -> Result<Vec<ReferenceFace>, OutputError> {
             )));
         }
     }
-    Ok(file.faces)
+    Ok(ReadReference {
+        faces: file.faces,
+        scene_hash: file.meta["scene_hash"].as_str().map(str::to_owned),
+    })
 }
 
 /// What is wrong with a record.

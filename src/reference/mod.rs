@@ -23,7 +23,8 @@ pub use config::{ReferenceConfig, ReferenceConfigError};
 pub use measure::{FaceRadiosity, Reference, ReferenceError, measure};
 pub use observer::{ReferenceObserver, SilentReference};
 pub use solution_error::{
-    FaceError, NothingToCompare, SolutionError, SolvedLight, SolvedLights, TrueFace, solution_error,
+    FaceError, NothingToCompare, ReferenceNoise, SolutionError, SolvedLight, SolvedLights,
+    TrueFace, reference_noise, solution_error,
 };
 pub use solution_lights::solution_lights;
 pub use traced_scene::TracedScene;

@@ -82,6 +82,43 @@ pub enum NothingToCompare {
     AllBlack,
 }
 
+/// What a reference itself is good for: the error that a perfect solution would show against it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferenceNoise {
+    /// Its standard errors in the metric of [`SolutionError::relative_rms`].
+    pub relative_rms: f64,
+    /// Its standard errors in the metric of [`SolutionError::bias`].
+    pub bias: f64,
+    /// Area-weighted mean of its reflected radiosity, in W/m2; positive.
+    pub mean: f64,
+}
+
+/// The noise of a reference, of its faces that reflect.
+///
+/// # Errors
+/// Where the mean that it is relative to is not positive.
+pub fn reference_noise(truth: &[TrueFace]) -> Result<ReferenceNoise, NothingToCompare> {
+    if truth.is_empty() {
+        return Err(NothingToCompare::NoFace);
+    }
+    let (mut area, mut light, mut squares, mut bias_squares) = (0.0, 0.0, 0.0, 0.0);
+    for face in truth {
+        area += face.area;
+        light += face.area * face.reflected;
+        squares += face.area * face.standard_error * face.standard_error;
+        bias_squares += (face.area * face.standard_error).powi(2);
+    }
+    if light <= 0.0 {
+        return Err(NothingToCompare::AllBlack);
+    }
+    let mean = light / area;
+    Ok(ReferenceNoise {
+        relative_rms: (squares / area).sqrt() / mean,
+        bias: bias_squares.sqrt() / light,
+        mean,
+    })
+}
+
 /// Compares a solution with the faces of a reference that reflect. What a solution lacks of a face's area
 /// counts as black.
 ///
@@ -91,12 +128,9 @@ pub fn solution_error(
     truth: &[TrueFace],
     solved: &SolvedLights,
 ) -> Result<SolutionError, NothingToCompare> {
-    if truth.is_empty() {
-        return Err(NothingToCompare::NoFace);
-    }
+    let noise = reference_noise(truth)?;
     let mut missing = Vec::new();
     let (mut area, mut light, mut squares, mut differences) = (0.0, 0.0, 0.0, 0.0);
-    let (mut noise, mut bias_noise) = (0.0, 0.0);
     let mut faces = Vec::with_capacity(truth.len());
     for face in truth {
         let x = match solved.get(&(face.face, face.side)) {
@@ -111,8 +145,6 @@ pub fn solution_error(
         light += face.area * face.reflected;
         squares += face.area * difference * difference;
         differences += face.area * difference;
-        noise += face.area * face.standard_error * face.standard_error;
-        bias_noise += (face.area * face.standard_error).powi(2);
         faces.push(FaceError {
             face: face.face,
             side: face.side,
@@ -123,10 +155,6 @@ pub fn solution_error(
             share: face.area * difference * difference,
         });
     }
-    if light <= 0.0 {
-        return Err(NothingToCompare::AllBlack);
-    }
-    let mean = light / area;
     for face in &mut faces {
         face.share = if squares > 0.0 {
             face.share / squares
@@ -138,11 +166,11 @@ pub fn solution_error(
     faces.sort_by(|a, b| b.share.total_cmp(&a.share).then(place(a).cmp(&place(b))));
     missing.sort_unstable();
     Ok(SolutionError {
-        relative_rms: (squares / area).sqrt() / mean,
+        relative_rms: (squares / area).sqrt() / noise.mean,
         bias: differences / light,
-        noise: (noise / area).sqrt() / mean,
-        bias_noise: bias_noise.sqrt() / light,
-        mean,
+        noise: noise.relative_rms,
+        bias_noise: noise.bias,
+        mean: noise.mean,
         faces,
         missing,
     })

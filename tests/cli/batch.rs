@@ -168,6 +168,15 @@ passes = 3
         assert!(folder.path(format!("out/last/{name}")).exists(), "{name}");
     }
     assert!(light == fs::read(folder.path("out/last/solution.ply")).unwrap());
+
+    // Other settings are another solve, and the list says that it belongs into the folder.
+    let list = fs::read_to_string(folder.path("jobs.toml")).unwrap();
+    folder.write("jobs.toml", list.replace("passes = 3", "passes = 2"));
+    folder
+        .line("batch jobs.toml --out out --resume --only last")
+        .ends_with(0, "other settings");
+    let passes = &folder.stats("out/last")["passes"];
+    assert_eq!(passes.as_array().unwrap().len(), 2);
 }
 
 #[test]

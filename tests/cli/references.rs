@@ -1,8 +1,10 @@
 //! `reference` and `error`.
 
-use crate::command::{COARSE, Folder, ROOM, write_room};
+use crate::command::{COARSE, Folder, Outcome, ROOM, write_room};
 use serde_json::{Value, json};
 use std::fs;
+use std::io::Write;
+use std::process::Stdio;
 
 fn reference(folder: &Folder, name: &str) -> Value {
     serde_json::from_slice(&fs::read(folder.path(name)).unwrap()).unwrap()
@@ -112,6 +114,51 @@ fn a_solution_is_compared() {
     folder.line(&line).ends_with(1, &line).says(&["above"]);
 }
 
+/// How well a reference is known is one figure, whoever prints it.
+#[test]
+fn a_reference_says_the_noise_that_a_comparison_finds() {
+    let folder = Folder::new();
+    // Faces of many sizes, some of them dark, in three colours.
+    let measured = folder.line("reference builtin:cornell --out ref.json --error 0.2");
+    measured.ends_with(0, "reference");
+    folder
+        .line(&format!("solve builtin:cornell --out solved {COARSE}"))
+        .ends_with(0, "solve");
+    let compared = folder.line("error solved ref.json --json error.json");
+    compared.ends_with(0, "error");
+    let figures = reference(&folder, "error.json");
+    let meta = &reference(&folder, "ref.json")["meta"];
+    for key in ["noise", "bias_noise"] {
+        let [measured, compared] = [&meta[key], &figures[key]].map(|x| x.as_f64().unwrap());
+        assert!(measured > 0.0, "{key}");
+        assert!(
+            (measured / compared - 1.0).abs() < 1e-12,
+            "{key}: {measured} is not {compared}"
+        );
+    }
+    let percent = |key: &str| 100.0 * meta[key].as_f64().unwrap();
+    let says = format!(
+        "{:.4} % of RMS error, {:.4} % of bias",
+        percent("noise"),
+        percent("bias_noise")
+    );
+    for run in [&measured, &compared] {
+        assert!(run.stdout.contains(&says), "{says}: {}", run.stdout);
+    }
+}
+
+/// Where nothing is reflected there is nothing to be unsure of.
+#[test]
+fn a_black_room_is_measured_without_noise() {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder.write("room.mtl", ROOM[1].replace("Kd 0.5 0.5 0.5", "Kd 0 0 0"));
+    folder
+        .line("reference room.obj --out ref.json --error 0.5")
+        .ends_with(0, "black");
+    assert_eq!(reference(&folder, "ref.json")["meta"]["noise"], 0.0);
+}
+
 /// A reference of two faces of the room, written by hand.
 fn by_hand(material: bool) -> Value {
     let mut faces = json!([
@@ -204,6 +251,55 @@ fn another_scene_is_refused() {
     .unwrap();
     let run = folder.line(line);
     assert_eq!(run.ends_with(0, "unknown").stderr, "");
+}
+
+/// Read once, a reference may come from a pipe, and still says of which scene it is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_reference_from_a_pipe_is_known_by_its_scene() {
+    let folder = measured_room();
+    folder.write("other.obj", ROOM[0].replace("room.mtl", "other.mtl"));
+    folder.write("other.mtl", ROOM[1].replace("Ke 10 10 10", "Ke 20 20 20"));
+    folder
+        .line(&format!("solve other.obj --out others {COARSE}"))
+        .ends_with(0, "solve");
+    let text = fs::read(folder.path("ref.json")).unwrap();
+    let piped = |line: &str| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let mut run = folder
+            .command(&words)
+            .stdin(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Dropped at the end of the line: that is the end of the file.
+        run.stdin.take().unwrap().write_all(&text).unwrap();
+        Outcome::of(run.wait_with_output().unwrap())
+    };
+    let own = piped("error solved /dev/stdin --max 10");
+    own.ends_with(0, "its own scene");
+    assert_eq!(own.stdout, folder.line("error solved ref.json").stdout);
+    piped("error others /dev/stdin --max 10")
+        .ends_with(2, "another scene")
+        .says(&["--max", "was measured from another scene"]);
+}
+
+/// What other programs keep in `meta` is their affair.
+#[test]
+fn meta_may_hold_anything() {
+    let folder = measured_room();
+    for meta in [
+        json!([1]),
+        json!("me"),
+        json!(null),
+        json!({ "scene_hash": 7 }),
+        json!({ "scene_hash": null, "scene": "x" }),
+    ] {
+        let mut file = by_hand(true);
+        file["meta"] = meta.clone();
+        folder.write("ref.json", file.to_string());
+        let run = folder.line("error solved ref.json --max 10");
+        assert_eq!(run.ends_with(0, &meta.to_string()).stderr, "");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Solves that are killed and go on, and checkpoints that are refused.
 #![cfg(unix)]
 
-use crate::command::{Folder, Outcome, ROOM, write_room};
+use crate::command::{COARSE, Folder, Outcome, ROOM, write_room};
 use crate::determinism::counts;
 use certilux::math::hash_u64;
 use rustix::process::{Pid, Signal, kill_process};
@@ -233,15 +233,14 @@ fn resuming_what_is_done_does_nothing_and_what_was_never_begun_begins_it() {
     assert!(again.stdout.contains("already"), "{}", again.stdout);
     assert_eq!(stats(), first);
 
-    // Not this solve, not all of it, not whole, not asked to.
+    // Not all of it, not whole, not asked to.
     let seconds = "\"seconds\"";
     assert!(String::from_utf8_lossy(&first).contains(seconds));
     for (what, change) in [
         (
-            "settings",
-            &(|| folder.line(&line.replace("1e-3", "2e-3"))) as &dyn Fn() -> Outcome,
+            "picture",
+            &(|| folder.line(&line.replace("--no-view ", ""))) as &dyn Fn() -> Outcome,
         ),
-        ("picture", &|| folder.line(&line.replace("--no-view ", ""))),
         ("bytes", &|| {
             let path = folder.path("results/solution.ply");
             let mut bytes = fs::read(&path).unwrap();
@@ -257,6 +256,80 @@ fn resuming_what_is_done_does_nothing_and_what_was_never_begun_begins_it() {
         assert!(!run.stdout.contains("already"), "{what}: {}", run.stdout);
         folder.line(line).ends_with(0, "restore");
     }
+}
+
+/// Whoever says `--resume` expects nothing to be lost: what another solve has finished is not overwritten.
+#[test]
+fn resuming_over_another_finished_solve_is_refused() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let line = format!("solve room.obj --out results {COARSE}");
+    folder.line(&line).ends_with(0, "finished");
+    let read = || ["solution.ply", "stats.json"].map(|f| fs::read(folder.path("results").join(f)));
+    let before = read().map(Result::unwrap);
+    let advice = ["results", "without --resume", "another --out"];
+    let refused = |more: &str, words: &str| {
+        let run = folder.line(&format!("{line} --resume {more}"));
+        run.ends_with(2, words).says(&[words]).says(&advice);
+        assert!(!run.stderr.contains("seed is 1 there and 1"), "{words}");
+        assert!(read().map(Result::unwrap) == before, "{words}");
+        assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
+    };
+    for (more, words) in [
+        ("--seed 7", "seed is 1 there and 7 here"),
+        (
+            "--technique normal",
+            "technique is occlusion there and normal here",
+        ),
+        ("--passes 2", "passes is not set there and 2 here"),
+        ("--rays 16 --format vtu", "rays is 8 there and 16 here"),
+    ] {
+        refused(more, words);
+    }
+    folder.write("room.mtl", ROOM[1].replace("Ke 10 10 10", "Ke 20 20 20"));
+    refused("", "another scene");
+    folder.write("room.mtl", ROOM[1]);
+
+    // The same settings in other words, and what does not affect the light.
+    let again = folder.line(&format!("{line} --resume --seed=1 --rays 8 --threads 1"));
+    again.ends_with(0, "the same");
+    assert!(again.stdout.contains("already"), "{}", again.stdout);
+    // What is taken for another version's.
+    let text = String::from_utf8(before[1].clone()).unwrap();
+    let version = format!("\"certilux\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(text.contains(&version));
+    folder.write(
+        "results/stats.json",
+        text.replace(&version, "\"certilux\": \"0.0.0\""),
+    );
+    folder
+        .line(&format!("{line} --resume"))
+        .ends_with(2, "another version")
+        .says(&["certilux is 0.0.0 there"])
+        .says(&advice);
+    // The advice holds.
+    folder
+        .line(&format!("{line} --resume --seed 7").replace("results", "others"))
+        .ends_with(0, "another folder");
+    folder
+        .line(&format!("{line} --seed 7"))
+        .ends_with(0, "without --resume");
+    assert_eq!(folder.stats("results")["seed"], 7);
+}
+
+/// A solve that was begun over another one goes on: that the other is lost was decided when it began.
+#[test]
+fn a_checkpoint_over_another_finished_solve_is_taken_up() {
+    let folder = Folder::new();
+    write_room(&folder);
+    folder
+        .line(&format!("solve room.obj --out results {COARSE} --seed 7"))
+        .ends_with(0, "finished");
+    kill_after_first_checkpoint(&folder, ROOM_LINE);
+    let run = folder.line(&format!("{ROOM_LINE} --out results --resume"));
+    run.ends_with(0, "resumed");
+    assert!(run.stdout.contains("went on after pass"), "{}", run.stdout);
+    assert_eq!(folder.stats("results")["seed"], 1);
 }
 
 /// A finished solve is not solved again for other pictures or forms: they are what a solve with these options writes.
@@ -338,7 +411,7 @@ fn resuming_with_other_outputs_makes_them_from_the_solution() {
         .ends_with(0, "lost");
     assert!(folder.path("results/view.exr").exists());
     folder
-        .line(&format!("{line} --seed 7 --no-view --resume --out results"))
+        .line(&format!("{line} --seed 7 --no-view --out results"))
         .ends_with(0, "other light");
     assert_eq!(folder.names("results"), ["solution.ply", "stats.json"]);
 }

@@ -140,6 +140,58 @@ fn what_cannot_be_shown_is_refused_before_any_work() {
     }
 }
 
+/// What a flag does for one picture it does not do for another, and then it is said to do nothing.
+#[test]
+fn flags_that_change_nothing_are_named() {
+    let folder = solved();
+    folder
+        .line("reference room.obj --out ref.json --error 0.2 --max-seconds 2")
+        .ends_with(0, "reference");
+    let all = [
+        ("--exposure", "--exposure 1"),
+        ("--greatest", "--greatest 7"),
+        ("--flat", "--flat"),
+        ("--clusters", "--clusters 5"),
+        ("--scene", "--scene room.obj"),
+    ];
+    // A reference with materials needs no scene, but may be given one.
+    for (file, show, used) in [
+        ("x.png", "radiance", "--exposure --flat"),
+        ("x.exr", "radiance", "--flat"),
+        ("x.png", "irradiance", "--greatest --flat"),
+        ("x.exr", "irradiance", "--flat"),
+        ("x.png", "error --reference ref.json", "--greatest --scene"),
+        ("x.png", "mesh", "--exposure --flat"),
+        ("x.png", "clusters", "--clusters --scene"),
+        ("x.png", "occluders", "--exposure --flat --scene"),
+        ("x.png", "rays", "--greatest --scene"),
+    ] {
+        let line = format!("view results --out {file} --size 40x30 --show {show}");
+        let picture = |flags: &str| {
+            let run = folder.line(&format!("{line} {flags}"));
+            run.ends_with(0, &format!("{line} {flags}"));
+            (run.stderr, fs::read(folder.path(file)).unwrap())
+        };
+        let (quiet, plain) = picture("");
+        assert_eq!(quiet, "", "{line}");
+        for (name, flag) in all {
+            let (says, changed) = picture(flag);
+            let is_used = used.split(' ').any(|u| u == name);
+            let warning = format!("certilux: warning: {name} is not used: ");
+            assert_eq!(
+                says.starts_with(&warning),
+                !is_used,
+                "{line} {flag}: {says}"
+            );
+            assert_eq!(says.lines().count(), usize::from(!is_used), "{says}");
+            assert!(
+                is_used || changed == plain,
+                "{line} {flag} changes the picture"
+            );
+        }
+    }
+}
+
 #[test]
 fn an_error_needs_a_reference_of_the_scene() {
     let folder = solved();
