@@ -172,6 +172,13 @@ fn proofs_change_nothing_in_small_scenes() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// Things stand on its floors, so that some samples of pairs that are proved visible lie below them.
+#[test]
+fn proofs_change_nothing_in_a_corridor() {
+    let found = differences("corridor", SolveConfig::default().epsilon, true);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
 /// What the comparison above rests on: claims are made, and they save rays.
 #[test]
 fn claims_save_rays() {

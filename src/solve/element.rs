@@ -214,7 +214,9 @@ impl Element {
                 self.height(other.centroid) <= tolerance && self.plane_range(other)[1] <= tolerance
             }
             Shape::Cluster => {
-                if self.cone_cos <= 0.0 {
+                // One normal of the cone, one point of each: most often enough to see that it does not.
+                let ahead = self.normal.dot(other.centroid - self.centroid);
+                if self.cone_cos <= 0.0 || ahead > tolerance {
                     return false;
                 }
                 // Through the plane: n = cos p + sin q; the first term is the plane's support.
@@ -245,7 +247,8 @@ impl Element {
             Shape::Volume => false,
             Shape::Triangle(_) => self.plane_range(other)[0] >= -tolerance,
             Shape::Cluster => {
-                if self.cone_cos <= 0.0 {
+                let ahead = self.normal.dot(other.centroid - self.centroid);
+                if self.cone_cos <= 0.0 || ahead < -tolerance {
                     return false;
                 }
                 let reach = (other.centroid - self.centroid).length() + other.radius + self.radius;

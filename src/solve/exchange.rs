@@ -111,8 +111,11 @@ impl<const C: usize> Task<'_, '_, C> {
                 match verdict {
                     Verdict::Visible => {
                         self.observe(Evidence::Clear);
+                        let Some(share) = self.visible_share(source, target, carried) else {
+                            return Next::SplitShadow(known);
+                        };
                         self.outcome.statistics.exchanges_visible += 1;
-                        self.visible_share(source, target, carried)
+                        share
                     }
                     // Reached only while claims are being checked.
                     _ => return Next::Done,
@@ -240,14 +243,19 @@ impl<const C: usize> Task<'_, '_, C> {
         sampled
     }
 
-    /// Visibility of a pair that is proved visible: 1, unless no sample carries any light, when a
-    /// technique without proofs would find none either.
-    fn visible_share(&self, source: &Source, target: Target, carried: f64) -> PartVisibility {
+    /// Visibility of a pair that is proved visible: 1, unless samples lie below what stands on an end, where a
+    /// technique without proofs finds no light either. `None` where it would split the pair.
+    fn visible_share(
+        &self,
+        source: &Source,
+        target: Target,
+        carried: f64,
+    ) -> Option<PartVisibility> {
         let (from, to) = (source.element, target.element);
         let context = self.pass.context;
         let is_open = context.is_open(from) && context.is_open(to);
         if is_open && from.faces_beyond(to, LEAST_COSINE) && to.faces_beyond(from, LEAST_COSINE) {
-            return PartVisibility::CLEAR;
+            return Some(PartVisibility::CLEAR);
         }
         let rays = self.pass.config.rays;
         let may_measure = self.pass.oracle.refines_shadow(to, carried);
@@ -257,17 +265,19 @@ impl<const C: usize> Task<'_, '_, C> {
                 |light: SampledLight| PartVisibility::even(f32::from(u8::from(light.carries)));
             let first = look(0);
             if first.casts && may_measure && self.measures_again(source, to) {
-                return measured(share(first), share(look(1)));
+                return Some(measured(share(first), share(look(1))));
             }
-            return share(first);
+            return Some(share(first));
         }
         let look = |round| self.pass.sample(AllClear, source, target, rays, round);
         let first = look(0);
-        let agree = first.all_clear || first.all_blocked;
-        if agree && first.rays > 0 && may_measure && self.measures_again(source, to) {
-            return measured(first.visibility, look(1).visibility);
+        if may_measure && !(first.all_clear || first.all_blocked) {
+            return None;
         }
-        first.visibility
+        if may_measure && first.rays > 0 && self.measures_again(source, to) {
+            return Some(measured(first.visibility, look(1).visibility));
+        }
+        Some(first.visibility)
     }
 
     /// Casts the rays of an exchange that was tested natively, and judges those that disagree.

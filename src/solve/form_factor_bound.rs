@@ -3,9 +3,9 @@
 use super::element::Element;
 
 /// The greatest share of what the source sends out evenly that the receiver can take, from 0 to 1. It is what is
-/// left of the light where nothing stands in the way and no part of an end hides another.
-pub fn form_factor_bound(source: &Element, receiver: &Element) -> f32 {
-    let gap = source.bounds.distance(receiver.bounds);
+/// left of the light where nothing stands in the way and no part of an end hides another. `gap` is the distance of
+/// their boxes.
+pub fn form_factor_bound(source: &Element, receiver: &Element, gap: f32) -> f32 {
     let there = bound_into_sphere(source, receiver, gap);
     // Reciprocity: A_s F_sr = A_r F_rs.
     let back = bound_into_sphere(receiver, source, gap) * (receiver.area / source.area);
@@ -118,7 +118,7 @@ mod tests {
                             / (std::f32::consts::PI * d.length_squared() * d.length_squared());
                     }
                 }
-                let (found, bound) = (power / area, form_factor_bound(source, receiver));
+                let (found, bound) = (power / area, form_factor_bound(source, receiver, gap));
                 assert!(
                     found <= bound * 1.02,
                     "{found} over {bound}: {source:?} {receiver:?}"
@@ -146,8 +146,12 @@ mod tests {
             other.bounds.max += by;
             other
         };
-        let ahead = form_factor_bound(&lamp, &shifted(lamp.normal * 2.0));
-        let aside = form_factor_bound(&lamp, &shifted(Vec3::X * 2.0 + lamp.normal * 0.1));
+        let bound = |by| {
+            let other = shifted(by);
+            form_factor_bound(&lamp, &other, lamp.bounds.distance(other.bounds))
+        };
+        let ahead = bound(lamp.normal * 2.0);
+        let aside = bound(Vec3::X * 2.0 + lamp.normal * 0.1);
         assert!(aside < 0.2 * ahead && aside > 0.0, "{aside} {ahead}");
     }
 }
