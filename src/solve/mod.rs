@@ -28,6 +28,7 @@ mod form_factor_bound;
 mod form_factor_estimate;
 mod guarantees;
 mod harvest;
+mod hidden_parts;
 mod irradiance_kernel;
 #[cfg(test)]
 mod irradiance_tests;

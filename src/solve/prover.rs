@@ -51,8 +51,17 @@ impl Knowledge {
 pub struct Proof {
     /// What is known now.
     pub knowledge: Knowledge,
+    /// What hides the pair.
+    pub hiding: Hiding,
+}
+
+/// What hides a pair.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Hiding {
     /// The occluder of a pair proved occluded.
     pub occluder: Option<u32>,
+    /// Some occluder crosses the segment between the centres, so several may hide what none hides alone.
+    pub may_hide: bool,
 }
 
 impl Proof {
@@ -60,7 +69,7 @@ impl Proof {
     pub fn none(knowledge: Knowledge) -> Self {
         Self {
             knowledge,
-            occluder: None,
+            hiding: Hiding::default(),
         }
     }
 }
@@ -220,19 +229,23 @@ impl<'a> Prover<'a> {
         }
         statistics.shafts += 1;
         let (a, b) = (source.shaft_bounds(), receiver.shaft_bounds());
+        let mut hiding = Hiding::default();
         if queries.occlusion() && self.technique.proves_occlusion() {
-            let occluder = self.find_occluder(&a, &b, occasion);
-            if occluder.is_some() {
+            hiding = self.find_occluder(&a, &b, occasion);
+            if hiding.occluder.is_some() {
                 statistics.occluded_claims += 1;
                 known.verdict = Verdict::Occluded;
                 return Proof {
                     knowledge: known,
-                    occluder,
+                    hiding,
                 };
             }
         }
         if !queries.visibility() {
-            return Proof::none(known);
+            return Proof {
+                knowledge: known,
+                hiding,
+            };
         }
         let next = knowledge.list as usize + 1;
         if self.lists.len() == next {
@@ -255,7 +268,16 @@ impl<'a> Prover<'a> {
         known.list = next as u32;
         known.verdict = answer.verdict;
         statistics.visible_claims += u64::from(visible);
-        Proof::none(known)
+        Proof {
+            knowledge: known,
+            hiding,
+        }
+    }
+
+    /// What hides a part of a pair that was asked about before it exchanges.
+    pub fn occluder_between(&mut self, source: &Element, receiver: &Element) -> Hiding {
+        let (a, b) = (source.shaft_bounds(), receiver.shaft_bounds());
+        self.find_occluder(&a, &b, Occasion::Exchange(1.0))
     }
 
     /// A rectangle, or where that may pay a solid, that hides the pair.
@@ -264,7 +286,7 @@ impl<'a> Prover<'a> {
         a: &ElementBounds,
         b: &ElementBounds,
         occasion: Occasion,
-    ) -> Option<u32> {
+    ) -> Hiding {
         let (tree, last) = (&self.guarantees.occluders, &mut self.last_occluder);
         let rectangles = tree.query(a, b, last, &mut self.occlusion);
         let mut found = rectangles.occluder;
@@ -282,7 +304,10 @@ impl<'a> Prover<'a> {
         }
         self.schedule
             .learn_occlusion(occasion, found.is_some(), steps);
-        found
+        Hiding {
+            occluder: found,
+            may_hide: rectangles.centre_blocked,
+        }
     }
 
     /// The few polygons that may block a pair, or `None` if they are many.

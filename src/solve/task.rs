@@ -3,6 +3,7 @@
 
 use super::claim_check::ClaimCheck;
 use super::claims::{Claim, ClaimSample};
+use super::config::Stride;
 use super::element::Element;
 use super::pair::{Known, Receiver, Source, exchange_key};
 use super::pass_context::Pass;
@@ -196,9 +197,17 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             &mut self.outcome.statistics,
         );
         if proof.knowledge.verdict != known.knowledge.verdict {
-            known.claim = Some(self.claim(source, receiver, proof.occluder));
+            known.claim = Some(self.claim(source, receiver, proof.hiding.occluder));
         }
         known.knowledge = proof.knowledge;
+        let is_last = matches!(occasion, Occasion::Exchange(_))
+            && proof.hiding.may_hide
+            && known.knowledge.verdict == Verdict::Unknown
+            && self.pass.config.stride != Stride::Auto;
+        if is_last && let Some(claim) = self.hide_parts(source.element, receiver.element) {
+            known.claim = Some(claim);
+            known.knowledge.verdict = Verdict::Occluded;
+        }
     }
 
     /// A new claim, kept if an audit wants it.
