@@ -14,7 +14,7 @@ use super::statistics::PassStatistics;
 use super::task::Task;
 
 /// How often a pair is split, its two ends together. Measured (`bench/runs/`, audit/hidden_parts.csv): four splits find
-/// 1.6 to 3.2 points of the blocked exchanges of c, eight 6 to 7, twelve 8 to 9 in four times the time of eight.
+/// 2.5 to 4 points of the blocked exchanges of c, eight 5 to 7, twelve 7 to 9 in more than three times the time of eight.
 const MOST_SPLITS: u32 = 8;
 /// Parts of so small a radius, in tau, are not split: rounding would weigh on them as much as what they show.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
