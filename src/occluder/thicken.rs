@@ -28,8 +28,12 @@ const SIDEWAYS: f64 = 0.95;
 /// segment is a segment through both faces of the smaller slab; it meets the surface, or a strip
 /// within `strip_reach` of it. Shrinking moves no point by more than a corner's sqrt(2) overhangs, so the
 /// segment itself passes within sqrt(2) overhang + strip_reach of the polygons.
+///
+/// Which side of a crack moves to the other is arbitrary. The border is kept within that of the other choice too, up to
+/// strip_reach further in, lest a replay that closes it the other way finds the overhang too great by a hair.
 fn overhang(footprint: &Footprint, weld: f64) -> f64 {
-    ((SIDEWAYS * weld - footprint.strip_reach) / std::f64::consts::SQRT_2).max(0.0)
+    let reach = footprint.strip_reach;
+    ((SIDEWAYS * weld - reach) / std::f64::consts::SQRT_2 - reach).max(-reach)
 }
 
 /// The occluder of `rectangle`, which lies in the plane of `frame` (the sheet's, turned) and is

@@ -95,6 +95,12 @@ fn claims_hold_in_a_few_nasty_scenes() {
     audit_seeds(0..4);
 }
 
+/// A sheet far from the origin, folded by as much as its digits allow, whose cracks can be closed either way.
+#[test]
+fn occluders_hold_whichever_side_of_a_crack_is_moved() {
+    audit_seeds(361..362);
+}
+
 #[test]
 #[ignore = "takes many minutes"]
 fn claims_hold_in_many_nasty_scenes() {
