@@ -234,7 +234,8 @@ pub struct SolveArgs {
     /// Scale each pass so that all that is shot arrives.
     #[arg(long, value_enum, default_value_t = NormaliseArg::Auto)]
     pub normalise: NormaliseArg,
-    /// Levels between queries for a guarantee (the paper's is 4), or auto: where they are likely to pay, and boxes of air.
+    /// Levels between queries for a guarantee (the paper's is 4), which then also hide pairs part by part, or auto: where they
+    /// are likely to pay, and boxes of air.
     #[arg(long, value_name = "K|auto", default_value = DEFAULT_STRIDE, value_parser = parse_stride, allow_negative_numbers = true)]
     pub stride: Stride,
     /// What occluders are to be like.

@@ -8,7 +8,7 @@ use super::config::Technique;
 use super::element::{Element, Shape};
 use super::element_vector::Space;
 use super::pair::{Known, Receiver, Source, Target, exchange_key};
-use super::query_schedule::{Evidence, Occasion, Queries};
+use super::queries::{Evidence, Occasion, Queries};
 use super::task::{Task, packets_of_exchange};
 use super::uneven_source;
 use crate::math::hash_u64;

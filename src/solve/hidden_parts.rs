@@ -88,7 +88,8 @@ impl PartSearch<'_, '_, '_> {
 }
 
 impl<const C: usize> Task<'_, '_, C> {
-    /// Tries to hide the parts of a pair; one of the claims that this rests on, if it could.
+    /// Tries to hide the parts of a pair. If it could, what a contradiction would name: the pair, and one of the occluders;
+    /// each part is a claim of its own for the audit.
     pub(super) fn hide_parts(&mut self, source: &Element, receiver: &Element) -> Option<Claim> {
         let mut search = PartSearch {
             context: &self.pass.context,
@@ -108,7 +109,11 @@ impl<const C: usize> Task<'_, '_, C> {
                 self.outcome.claims.offer(key, *claim);
             }
         }
-        claims.first().copied()
+        claims.first().map(|claim| Claim {
+            source: source.name(),
+            receiver: receiver.name(),
+            ..*claim
+        })
     }
 }
 

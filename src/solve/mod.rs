@@ -45,6 +45,7 @@ mod planted;
 mod prepared;
 mod prover;
 mod push_pull;
+mod queries;
 mod query_record;
 mod query_schedule;
 mod radiosity;

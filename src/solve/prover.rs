@@ -6,7 +6,8 @@
 use super::config::{SolveConfig, Stride, Technique};
 use super::element::{Element, Shape};
 use super::guarantees::Guarantees;
-use super::query_schedule::{Evidence, Occasion, Queries, QuerySchedule};
+use super::queries::{Evidence, Occasion, Queries};
+use super::query_schedule::QuerySchedule;
 use super::statistics::PassStatistics;
 use crate::math::Aabb;
 use crate::visibility::{

@@ -6,78 +6,9 @@
 //! often queries on pairs of its size succeeded after such neighbours so far in the same task.
 
 use super::config::Technique;
+use super::queries::{Evidence, Occasion, Queries};
 use super::query_record::QueryRecord;
-use crate::visibility::{SampledVisibility, WalkLimits};
-
-/// Which guarantees to ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Queries {
-    /// None.
-    None,
-    /// Full occlusion alone.
-    Occlusion,
-    /// Full visibility alone.
-    Visibility,
-    /// Not a proof but a shorter list of what may block.
-    Shorten,
-    /// Occlusion, then visibility.
-    Both,
-}
-
-impl Queries {
-    /// True where full occlusion is asked.
-    pub fn occlusion(self) -> bool {
-        matches!(self, Self::Occlusion | Self::Both)
-    }
-
-    /// True where the shaft is walked.
-    pub fn visibility(self) -> bool {
-        matches!(self, Self::Visibility | Self::Shorten | Self::Both)
-    }
-}
-
-/// When a query is asked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Occasion {
-    /// Before a pair is split, with so many packets of eight rays likely to be cast below it.
-    Split(f32),
-    /// Before an exchange of so many packets.
-    Exchange(f32),
-}
-
-impl Occasion {
-    /// Packets that a proof is likely to save.
-    fn packets(self) -> f32 {
-        match self {
-            Self::Split(packets) | Self::Exchange(packets) => packets,
-        }
-    }
-}
-
-/// What an exchange was found to be, by its rays or by proof.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Evidence {
-    /// All blocked.
-    Blocked,
-    /// All clear.
-    Clear,
-    /// Some of each.
-    Mixed,
-    /// None carries light.
-    Dark,
-}
-
-impl Evidence {
-    /// What samples say.
-    pub fn of(sampled: &SampledVisibility) -> Self {
-        match sampled.rays {
-            0 => Self::Dark,
-            n if sampled.rays_blocked == n => Self::Blocked,
-            _ if sampled.rays_blocked == 0 => Self::Clear,
-            _ => Self::Mixed,
-        }
-    }
-}
+use crate::visibility::WalkLimits;
 
 /// Parts of a query's cost, in packets of eight rays: what every query costs, a node or full test of the occluders,
 /// and a node or leaf of the scene with its polygons. Measured on d, e and f at the fixed stride (`bench/runs/`, compare).

@@ -7,8 +7,9 @@
 use super::bounds::ElementBounds;
 use super::faults::Faults;
 use super::scene_tree::SceneTree;
-use super::shaft_walk::{Question, VisibilityAnswer, VisibilityScratch, Walk, WalkLimits};
+use super::shaft_walk::{VisibilityScratch, Walk};
 use super::survivors::SurvivorList;
+use super::visibility_question::{Question, VisibilityAnswer, WalkLimits};
 use pulp::Arch;
 
 /// Full-visibility queries against one scene.

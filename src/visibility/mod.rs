@@ -29,6 +29,7 @@ mod survivors;
 mod tolerance;
 mod trimmed;
 mod verdict;
+mod visibility_question;
 mod wide_corners;
 mod wide_tree;
 mod wide_tree_builder;
@@ -46,11 +47,12 @@ pub use part_visibility::{PARTS, PartVisibility};
 pub use sample_points::{PointOctet, Surface, children_of_triangle};
 pub use sampling::{AllClear, SampleOctet, SampledVisibility, SegmentTest, sample_visibility};
 pub use scene_tree::SceneTree;
-pub use shaft_walk::{VisibilityAnswer, VisibilityScratch, WalkLimits};
+pub use shaft_walk::VisibilityScratch;
 pub use survivors::SurvivorList;
 pub use tolerance::Tolerance;
 pub use trimmed::LEAST_COSINE;
 pub use verdict::Verdict;
+pub use visibility_question::{VisibilityAnswer, WalkLimits};
 pub use wide_tree::WideTreeDefect;
 
 #[cfg(test)]

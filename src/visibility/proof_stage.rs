@@ -33,16 +33,28 @@ impl Stage {
         b: &ElementBounds,
         incoming: &SurvivorList,
     ) -> (VisibilityAnswer, SurvivorList) {
+        let (answer, outgoing) = self.walk(a, b, incoming, WalkLimits::default());
+        assert_eq!(answer.verdict == Verdict::Visible, outgoing.is_empty());
+        (answer, outgoing)
+    }
+
+    /// The answer of a walk within `limits`, and what it hands down.
+    pub(super) fn walk(
+        &self,
+        a: &ElementBounds,
+        b: &ElementBounds,
+        incoming: &SurvivorList,
+        limits: WalkLimits,
+    ) -> (VisibilityAnswer, SurvivorList) {
         let mut outgoing = SurvivorList::new();
         let answer = VisibilityQuery::new(&self.tree).run(
             a,
             b,
             incoming,
             &mut outgoing,
-            WalkLimits::default(),
+            limits,
             &mut VisibilityScratch::default(),
         );
-        assert_eq!(answer.verdict == Verdict::Visible, outgoing.is_empty());
         (answer, outgoing)
     }
 

@@ -7,55 +7,16 @@
 //! where that crosses the segment between the centres, no shaft is made at all; and a list of few
 //! polygons goes through the slow test at once, which costs less than the planes of a shaft.
 
-use super::bounds::ElementBounds;
 use super::crossing::{blocks_centre_segment, may_block};
-use super::faults::Faults;
 use super::plane_octet::PlaneOctet;
-use super::scene_tree::SceneTree;
 use super::shaft::Shaft;
 use super::shaft_planes::push_planes;
 use super::survivors::{SurvivorEntry, SurvivorList, SurvivorOctet};
 use super::verdict::Verdict;
+use super::visibility_question::{Question, VisibilityAnswer};
 use super::wide_corners::WideCorners;
 use super::wide_tree::{BoxOctet, ChildRef};
-use crate::math::PolygonId;
 use pulp::{Simd, WithSimd};
-
-/// When a walk gives up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WalkLimits {
-    /// Stop at this many leaves that hold a polygon in the way (at least 1). More than 1 makes the
-    /// list that is handed down sharper, for [`BlockerList`](super::BlockerList).
-    pub blocking_leaves: u32,
-    /// Stop after this many nodes and leaves.
-    pub nodes: u32,
-}
-
-impl Default for WalkLimits {
-    /// Stop at the first obstacle, however long that takes.
-    fn default() -> Self {
-        Self {
-            blocking_leaves: 1,
-            nodes: u32::MAX,
-        }
-    }
-}
-
-/// The outcome of a walk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct VisibilityAnswer {
-    /// [`Verdict::Visible`] or [`Verdict::Unknown`].
-    pub verdict: Verdict,
-    /// A polygon that may block, where the walk came down to one.
-    pub obstacle: Option<PolygonId>,
-    /// True if the walk saw everything: the survivors are exactly the polygons in the way, leaf by
-    /// leaf, and no node among them.
-    pub complete: bool,
-    /// Nodes, leaves and list octets tested.
-    pub nodes: u32,
-    /// Polygons that went through the slow test.
-    pub polygons: u32,
-}
 
 /// What a caller lends to queries, so that none allocates. One a task.
 #[derive(Clone, Debug, Default)]
@@ -83,18 +44,6 @@ pub(super) struct Pending {
 enum BoxHome {
     Node(u32),
     Incoming(u32),
-}
-
-/// What a walk is asked.
-#[derive(Clone, Copy)]
-pub(super) struct Question<'a> {
-    pub(super) scene: &'a SceneTree,
-    pub(super) faults: Faults,
-    pub(super) a: &'a ElementBounds,
-    pub(super) b: &'a ElementBounds,
-    /// What may block the pair.
-    pub(super) incoming: &'a SurvivorList,
-    pub(super) limits: WalkLimits,
 }
 
 /// One query in progress.

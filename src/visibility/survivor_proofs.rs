@@ -4,7 +4,7 @@ use super::exact::{PolygonStanding, judge_polygon};
 use super::nasty_pairs::Draw;
 use super::nasty_scenes::{Triangles, room, sheet, torus, turned};
 use super::proof_stage::Stage;
-use super::{ElementBounds, SurvivorList, Verdict, VisibilityQuery, VisibilityScratch, WalkLimits};
+use super::{ElementBounds, SurvivorList, Verdict, WalkLimits};
 use crate::math::Aabb;
 use glam::{Quat, Vec3};
 
@@ -100,17 +100,9 @@ fn collecting_walks_leave_exactly_the_polygons_in_the_way() {
     let mut blocked = 0;
     for _ in 0..200 {
         let (a, b) = (stage.patch(&mut draw), stage.patch(&mut draw));
-        let mut list = SurvivorList::new();
-        let answer = VisibilityQuery::new(&stage.tree).run(
-            &a,
-            &b,
-            &whole,
-            &mut list,
-            limits,
-            &mut VisibilityScratch::default(),
-        );
-        assert!(answer.complete);
+        let (answer, list) = stage.walk(&a, &b, &whole, limits);
         let held = list.polygons(&stage.tree);
+        assert!(answer.complete);
         let (blockers, _) = stage.judge(&a, &b);
         for &i in &blockers {
             assert!(held.iter().any(|p| p.0 == i));
@@ -132,19 +124,11 @@ fn a_walk_cut_short_hands_down_the_rest() {
     let mut draw = Draw::new(37);
     for nodes in [0, 1, 2, 5, 20] {
         let (a, b) = (stage.patch(&mut draw), stage.patch(&mut draw));
-        let mut list = SurvivorList::new();
         let limits = WalkLimits {
             nodes,
             ..WalkLimits::default()
         };
-        VisibilityQuery::new(&stage.tree).run(
-            &a,
-            &b,
-            &whole,
-            &mut list,
-            limits,
-            &mut VisibilityScratch::default(),
-        );
+        let (_, list) = stage.walk(&a, &b, &whole, limits);
         let held = list.polygons(&stage.tree);
         for i in stage.judge(&a, &b).0 {
             assert!(held.iter().any(|p| p.0 == i));
