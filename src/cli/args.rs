@@ -118,7 +118,7 @@ pub struct ReportCommand {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Writes into DIR: solution.ply (radiosity and irradiance of every leaf patch), stats.json (counts, times, \
-                  where the power went), view.exr and view.png; with --format glb,vtu also solution.glb and solution.vtu. While it works, solve.checkpoint holds the state after the last pass: \
+                  where the power went), view.exr and view.png; with --format glb,vtu also solution.glb and solution.vtu. While it works, solve.checkpoint holds the state after a late pass: \
                   the same command with --resume goes on from there, to the same bytes.\n\n\
                   Speed against accuracy: --epsilon first, then --rays. --passes 1 is direct light alone."
 )]
@@ -150,7 +150,7 @@ pub struct SolveCommand {
     /// With --resume, solve anew where DIR holds another finished solve: what a batch does whose list has changed.
     #[arg(long, requires = "resume", hide = true)]
     pub renew: bool,
-    /// Keep no checkpoint after each pass.
+    /// Keep no checkpoint. With one, at most a twentieth of the time goes into it.
     #[arg(long)]
     pub no_checkpoint: bool,
     /// Refuse a solve that is likely to need more memory than SIZE (such as 8G), and stop one that holds more after a pass.

@@ -1,4 +1,4 @@
-//! The checkpoint of `certilux solve`: kept after every pass, taken up with `--resume`, removed with the last file.
+//! The checkpoint of `certilux solve`: kept after passes, taken up with `--resume`, removed with the last file.
 
 use super::error::CliError;
 use super::logs;
@@ -6,11 +6,25 @@ use crate::output::{CheckpointKey, Fingerprint, read_checkpoint, write_checkpoin
 use crate::solve::{Observer, PassStatistics, PreparedScene, Snapshot, SolveError};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Name of the checkpoint in the folder of results.
 pub const FILE_NAME: &str = "solve.checkpoint";
 
-/// Passes on what a solve tells, and keeps its state after every pass.
+/// How many times as long as the last checkpoint took to write the solve goes on before the next: quick passes would
+/// else spend more time on theirs, with a disk that is waited for, than on light.
+const WORK_PER_WRITE: u32 = 20;
+
+/// A checkpoint that was written.
+#[derive(Clone, Copy)]
+struct Written {
+    at: Instant,
+    took: Duration,
+}
+
+/// Passes on what a solve tells, and keeps its state after the first pass, and after those that end long enough after the
+/// last checkpoint.
 pub struct Checkpointing<'a> {
     watcher: &'a dyn Observer,
     key: CheckpointKey,
@@ -19,6 +33,9 @@ pub struct Checkpointing<'a> {
     /// A disk that is full is said to be so once.
     complained: AtomicBool,
     passes_made: AtomicUsize,
+    last: Mutex<Option<Written>>,
+    /// Passes made since the state on disk.
+    passes_since: AtomicUsize,
 }
 
 impl<'a> Checkpointing<'a> {
@@ -41,6 +58,8 @@ impl<'a> Checkpointing<'a> {
             keep,
             complained: AtomicBool::new(false),
             passes_made: AtomicUsize::new(0),
+            last: Mutex::new(None),
+            passes_since: AtomicUsize::new(0),
         }
     }
 
@@ -73,7 +92,7 @@ impl<'a> Checkpointing<'a> {
             {
                 CliError::Suspended {
                     pass,
-                    completed,
+                    completed: completed - self.passes_since.load(Ordering::Relaxed) as u32,
                     checkpoint: self.path.clone(),
                 }
             }
@@ -109,6 +128,13 @@ impl Observer for Checkpointing<'_> {
         if !self.keep {
             return;
         }
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.is_some_and(|w| w.at.elapsed() < WORK_PER_WRITE * w.took) {
+            self.passes_since.fetch_add(1, Ordering::Relaxed);
+            return;
+        }
+        self.passes_since.store(0, Ordering::Relaxed);
+        let begun = Instant::now();
         // A solve of days is not given up because a disk is full.
         if let Err(error) = write_checkpoint(&self.path, &self.key, &take())
             && !self.complained.swap(true, Ordering::Relaxed)
@@ -117,6 +143,10 @@ impl Observer for Checkpointing<'_> {
                 "the solve goes on without a checkpoint: {error}"
             ));
         }
+        *last = Some(Written {
+            at: Instant::now(),
+            took: begun.elapsed(),
+        });
     }
 
     fn interrupted(&self) -> bool {

@@ -7,6 +7,9 @@ use super::solver::{Solver, mean};
 use super::statistics::PowerLedger;
 use crate::math::FacetId;
 
+/// Standard error that is good enough for the power that escapes, and for what is swallowed: a share of what was shot.
+const ESCAPE_ERROR: f64 = 1.0e-3;
+
 impl<const C: usize> Solver<'_, C> {
     /// Where the power went, with so much left unshot, and so much that arrives in passes that were not made.
     pub(super) fn ledger(&self, unshot: f64, extrapolated: f64) -> PowerLedger {
@@ -32,6 +35,7 @@ impl<const C: usize> Solver<'_, C> {
             self.embree,
             &self.table.normals,
             &radiating,
+            ESCAPE_ERROR,
             self.config.seed,
         );
         let emitted = mean(&self.emitted);

@@ -253,6 +253,7 @@ impl<'a, const C: usize> Solver<'a, C> {
             self.embree,
             &self.table.normals,
             &weights,
+            0.0,
             self.config.seed,
         );
         let area: f64 = self.table.areas.iter().sum();
