@@ -10,11 +10,13 @@
 use super::audit_report::{AuditReport, Flaw};
 use super::claimed_occluder::ClaimedOccluder;
 use super::continuous_surface::SurfaceProof;
+use super::parts_cover::PartsCover;
 use super::ray_attack::{AttackOutcome, RayAttack};
 use super::shaft_replay::replay_visibility;
 use crate::math::{PolygonId, hash_u64};
 use crate::solve::{
-    Claim, ElementName, Guarantees, Observer, PreparedScene, SolveConfig, SolveError, solve,
+    Claim, Element, ElementName, Guarantees, Observer, PreparedScene, ProvedPair, SolveConfig,
+    SolveError, solve,
 };
 use crate::visibility::exact::SegmentStanding;
 use glam::DVec3;
@@ -96,6 +98,7 @@ struct Auditor<'a> {
     prepared: &'a PreparedScene,
     guarantees: &'a Guarantees,
     attack: RayAttack<'a>,
+    cover: PartsCover<'a>,
     brute_force: usize,
     seed: u64,
 }
@@ -111,6 +114,7 @@ impl<'a> Auditor<'a> {
             prepared,
             guarantees,
             attack: RayAttack::new(prepared, &guarantees.scene, config.rays_per_claim),
+            cover: PartsCover::new(&prepared.scene, &prepared.hierarchy),
             brute_force: config.brute_force,
             seed,
         }
@@ -121,8 +125,12 @@ impl<'a> Auditor<'a> {
     }
 
     /// Once per occluder: does its rectangle lie in continuous surface, or is it closed on all sides?
-    fn occluders(&self, claims: &[Claim], report: &mut AuditReport) {
-        let mut claimed: Vec<u32> = claims.iter().filter_map(|c| c.occluder).collect();
+    fn occluders(&self, claims: &[ProvedPair], report: &mut AuditReport) {
+        let mut claimed: Vec<u32> = claims
+            .iter()
+            .flat_map(|pair| std::iter::once(&pair.claim).chain(&pair.parts))
+            .filter_map(|claim| claim.occluder)
+            .collect();
         claimed.sort_unstable();
         claimed.dedup();
         report.occluders_claimed = claimed.len() as u64;
@@ -152,7 +160,7 @@ impl<'a> Auditor<'a> {
 
     fn claims(
         &self,
-        claims: &[Claim],
+        claims: &[ProvedPair],
         report: &mut AuditReport,
         observer: &dyn Observer,
     ) -> Result<(), AuditError> {
@@ -160,7 +168,7 @@ impl<'a> Auditor<'a> {
         let brute_forced = claims
             .iter()
             .enumerate()
-            .filter(|(_, claim)| claim.occluder.is_none())
+            .filter(|(_, pair)| pair.claim.occluder.is_none())
             .nth(self.brute_force)
             .map_or(claims.len(), |(index, _)| index);
         for (batch, claims) in claims.chunks(BATCH).enumerate() {
@@ -170,7 +178,7 @@ impl<'a> Auditor<'a> {
             let parts: Vec<AuditReport> = claims
                 .par_iter()
                 .enumerate()
-                .map(|(i, claim)| self.claim(claim, batch * BATCH + i < brute_forced))
+                .map(|(i, pair)| self.claim(pair, batch * BATCH + i < brute_forced))
                 .collect();
             for part in parts {
                 report.merge(part);
@@ -179,43 +187,86 @@ impl<'a> Auditor<'a> {
         Ok(())
     }
 
-    fn claim(&self, claim: &Claim, brute_force: bool) -> AuditReport {
+    fn claim(&self, pair: &ProvedPair, brute_force: bool) -> AuditReport {
         let mut report = AuditReport::default();
+        let claim = &pair.claim;
         let elements = claim.elements(&self.prepared.scene, &self.prepared.hierarchy);
-        let [a, b] = elements.each_ref().map(|e| e.shaft_bounds());
-        let occluder = claim.occluder.map(|index| self.occluder(index));
-        let scene = &self.guarantees.scene;
-        if let Some(occluder) = occluder {
-            report.occlusion_claims += 1;
-            match occluder.replay(&a, &b, scene.tolerance()) {
-                Ok(()) => report.occlusion_proofs += 1,
-                Err(flaw) => report.add(Flaw::OcclusionProof {
-                    claim: claim.into(),
-                    reason: flaw.to_string(),
-                }),
-            }
-        } else {
+        let occluders = self.occluders_of(pair);
+        if occluders.is_empty() {
             report.visibility_claims += 1;
             if brute_force {
-                let replay = replay_visibility(scene, &a, &b);
-                report.visibility_proofs += 1;
-                report.polygons_proved += replay.proved;
-                report.polygons_undecided += replay.undecided;
-                if let Some((polygon, segment)) = replay.blocked {
-                    report.add(Flaw::PolygonInShaft {
-                        claim: claim.into(),
-                        polygon: polygon.0,
-                        source_face: self.source_face(polygon),
-                        segment: segment.map(|p| self.in_file(p)),
-                    });
-                }
+                self.replay_shaft(claim, &elements, &mut report);
             }
+        } else {
+            report.occlusion_claims += 1;
+            report.claims_by_parts += u64::from(!pair.parts.is_empty());
+            let flaws = report.contradictions_standing;
+            self.replay_hidden(pair, &mut report);
+            report.occlusion_proofs += u64::from(report.contradictions_standing == flaws);
         }
-        let outcome = self
-            .attack
-            .attack([&elements[0], &elements[1]], occluder, self.key(claim));
+        let outcome = self.attack.attack(
+            [&elements[0], &elements[1]],
+            &occluders,
+            !pair.parts.is_empty(),
+            self.key(claim),
+        );
         self.add_rays(&mut report, claim, &outcome);
         report
+    }
+
+    /// What hides the pair: nothing where it is claimed to be visible.
+    fn occluders_of(&self, pair: &ProvedPair) -> Vec<ClaimedOccluder<'a>> {
+        let claims: &[Claim] = match pair.parts.is_empty() {
+            true => std::slice::from_ref(&pair.claim),
+            false => &pair.parts,
+        };
+        let indices = claims.iter().filter_map(|claim| claim.occluder);
+        indices.map(|index| self.occluder(index)).collect()
+    }
+
+    /// Does the occluder cut every segment of the pair, or each part's that of the part, and do the parts cover the pair?
+    fn replay_hidden(&self, pair: &ProvedPair, report: &mut AuditReport) {
+        let (scene, hierarchy) = (&self.prepared.scene, &self.prepared.hierarchy);
+        let mut replay = |claim: &Claim| {
+            let Some(index) = claim.occluder else { return };
+            let ends = claim.elements(scene, hierarchy);
+            let [a, b] = ends.each_ref().map(|e| e.shaft_bounds());
+            let tolerance = self.guarantees.scene.tolerance();
+            if let Err(flaw) = self.occluder(index).replay(&a, &b, tolerance) {
+                report.add(Flaw::OcclusionProof {
+                    claim: claim.into(),
+                    reason: flaw.to_string(),
+                });
+            }
+        };
+        if pair.parts.is_empty() {
+            replay(&pair.claim);
+            return;
+        }
+        pair.parts.iter().for_each(replay);
+        if let Some([from, to]) = self.cover.find_gap(pair) {
+            report.add(Flaw::PartNotHidden {
+                claim: (&pair.claim).into(),
+                part: [from.name().into(), to.name().into()],
+            });
+        }
+    }
+
+    /// Is every polygon of the scene out of the pair's way?
+    fn replay_shaft(&self, claim: &Claim, elements: &[Element; 2], report: &mut AuditReport) {
+        let [a, b] = elements.each_ref().map(|e| e.shaft_bounds());
+        let replay = replay_visibility(&self.guarantees.scene, &a, &b);
+        report.visibility_proofs += 1;
+        report.polygons_proved += replay.proved;
+        report.polygons_undecided += replay.undecided;
+        if let Some((polygon, segment)) = replay.blocked {
+            report.add(Flaw::PolygonInShaft {
+                claim: claim.into(),
+                polygon: polygon.0,
+                source_face: self.source_face(polygon),
+                segment: segment.map(|p| self.in_file(p)),
+            });
+        }
     }
 
     fn add_rays(&self, report: &mut AuditReport, claim: &Claim, outcome: &AttackOutcome) {

@@ -15,6 +15,8 @@ pub struct AuditReport {
     pub claims_audited: u64,
     /// Those of full occlusion.
     pub occlusion_claims: u64,
+    /// Those of them that rest on parts of the pair, each with an occluder of its own.
+    pub claims_by_parts: u64,
     /// Those of full visibility.
     pub visibility_claims: u64,
     /// Occluders that these claims rest on.
@@ -66,6 +68,13 @@ pub enum Flaw {
         /// What is wrong.
         reason: String,
     },
+    /// A pair is claimed to be hidden part by part, and a part neither is nor faces away.
+    PartNotHidden {
+        /// The claim.
+        claim: ClaimRecord,
+        /// The part's ends.
+        part: [ElementRecord; 2],
+    },
     /// A polygon stands in a shaft that was claimed empty.
     PolygonInShaft {
         /// The claim.
@@ -98,7 +107,7 @@ pub struct ClaimRecord {
     pub source: ElementRecord,
     /// The other.
     pub receiver: ElementRecord,
-    /// The occluder; none claims full visibility.
+    /// The occluder, or one of several; none claims full visibility.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub occluder: Option<u32>,
 }
@@ -112,16 +121,21 @@ pub struct ElementRecord {
     pub path: u64,
 }
 
-impl From<&Claim> for ClaimRecord {
-    fn from(claim: &Claim) -> Self {
-        let record = |name: ElementName| ElementRecord {
+impl From<ElementName> for ElementRecord {
+    fn from(name: ElementName) -> Self {
+        Self {
             node: name.node.0,
             path: name.path.0,
-        };
+        }
+    }
+}
+
+impl From<&Claim> for ClaimRecord {
+    fn from(claim: &Claim) -> Self {
         Self {
             pass: claim.pass,
-            source: record(claim.source),
-            receiver: record(claim.receiver),
+            source: claim.source.into(),
+            receiver: claim.receiver.into(),
             occluder: claim.occluder,
         }
     }
@@ -144,6 +158,7 @@ impl AuditReport {
     /// Takes over what was found of one claim.
     pub(super) fn merge(&mut self, part: Self) {
         self.occlusion_claims += part.occlusion_claims;
+        self.claims_by_parts += part.claims_by_parts;
         self.visibility_claims += part.visibility_claims;
         self.occlusion_proofs += part.occlusion_proofs;
         self.visibility_proofs += part.visibility_proofs;

@@ -323,6 +323,19 @@ fn a_shaft_wholly_beside_the_rectangle_is_found() {
 }
 
 #[test]
+fn a_part_that_is_never_looked_at_is_found() {
+    let prepared = builtin("two-rooms");
+    assert!(assert_clean(&prepared).claims_by_parts > 10);
+    let faults = Faults {
+        part_forgotten: true,
+        ..Faults::NONE
+    };
+    let report = audit_of(&with_faults(prepared, faults));
+    assert!(finds(&report, |f| matches!(f, Flaw::PartNotHidden { .. })));
+    assert!(finds(&report, is_segment));
+}
+
+#[test]
 fn a_survivor_list_cut_short_is_found() {
     let prepared = builtin("cornell");
     assert_clean(&prepared);

@@ -130,7 +130,7 @@ fn detect<const C: usize>(
         let sample = outcome.blocked.into_claims();
         let blocked = sample
             .par_iter()
-            .filter(|pair| stays_blocked(prepared, &points, pair, what.rays))
+            .filter(|pair| stays_blocked(prepared, &points, &pair.claim, what.rays))
             .count();
         rows.push(Detection {
             pass,

@@ -16,6 +16,7 @@ mod error_budget;
 mod flat_polygon;
 mod instruction_counts;
 mod pareto;
+mod parts_cover;
 mod polygon_boxes;
 mod processor_time;
 mod ray_attack;

@@ -8,6 +8,7 @@
 use super::claimed_occluder::ClaimedOccluder;
 use super::dice::Dice;
 use super::element_points::{ElementPoint, ElementPoints, Place, point_of};
+use super::parts_cover::ROUNDING;
 use super::polygon_boxes::{PolygonBoxes, nearest_on_segment};
 use crate::cluster::Hierarchy;
 use crate::embree::{CommittedScene, RayPacket8};
@@ -66,7 +67,7 @@ pub(super) struct AttackOutcome {
 
 /// What the aimed rays aim at.
 enum Target<'a> {
-    Occluder(ClaimedOccluder<'a>),
+    Occluders(&'a [ClaimedOccluder<'a>]),
     Polygons(Vec<PolygonId>),
 }
 
@@ -85,20 +86,22 @@ impl<'a> RayAttack<'a> {
         }
     }
 
-    /// Attacks the claim that `occluder` hides `a` and `b` from each other, or without one that they
-    /// see each other fully. `key` names the claim.
+    /// Attacks the claim that `occluders` hide `a` and `b` from each other (with `by_parts` each a part of the pair,
+    /// where those that face away need none), or without any that the two see each other fully. `key` names the claim.
     pub fn attack(
         &self,
         [a, b]: [&Element; 2],
-        occluder: Option<ClaimedOccluder>,
+        occluders: &[ClaimedOccluder<'a>],
+        by_parts: bool,
         key: u64,
     ) -> AttackOutcome {
         let mut outcome = AttackOutcome::default();
         let mut dice = Dice::new(key);
-        let target = match occluder {
-            Some(occluder) => Target::Occluder(occluder),
-            None => Target::Polygons(self.polygons_near(a, b)),
+        let target = match occluders {
+            [] => Target::Polygons(self.polygons_near(a, b)),
+            _ => Target::Occluders(occluders),
         };
+        let claimed_blocked = !occluders.is_empty();
         let uniform = self.rays.div_ceil(2);
         let mut index = 0;
         while index < self.rays {
@@ -116,6 +119,9 @@ impl<'a> RayAttack<'a> {
                 } else {
                     self.aim([a, b], &target, &mut dice)
                 };
+                if by_parts && !carries_light(from, to, self.polygons.tolerance().tau) {
+                    continue;
+                }
                 let Some([near, far]) = trimmed(from, to, self.polygons.tolerance().tau) else {
                     continue;
                 };
@@ -132,13 +138,13 @@ impl<'a> RayAttack<'a> {
                 continue;
             }
             let blocked = self.embree.occluded8(&mut packet, active);
-            let wrong = match occluder {
-                Some(_) => active & !blocked,
-                None => active & blocked,
+            let wrong = match claimed_blocked {
+                true => active & !blocked,
+                false => active & blocked,
             };
             for lane in (0..8).filter(|lane| wrong & (1 << lane) != 0) {
                 outcome.contradicted += 1;
-                self.settle(segments[lane], occluder.is_some(), &mut outcome);
+                self.settle(segments[lane], claimed_blocked, &mut outcome);
             }
         }
         outcome
@@ -205,14 +211,16 @@ impl<'a> RayAttack<'a> {
 
     /// A place to aim at, on or a little beside a border.
     fn place(&self, target: &Target, dice: &mut Dice) -> Option<Vec3> {
-        let on = match target {
-            Target::Occluder(occluder) => occluder.border_point(self.scene, self.hierarchy, dice),
-            Target::Polygons(polygons) => {
-                let chosen = *polygons.get(dice.below(polygons.len().max(1)))?;
-                let place = [Place::Corner, Place::Edge, Place::Inside][dice.below(3)];
-                point_of(self.scene.corners(chosen), place, dice)
-            }
-        };
+        let on =
+            match target {
+                Target::Occluders(occluders) => occluders[dice.below(occluders.len())]
+                    .border_point(self.scene, self.hierarchy, dice),
+                Target::Polygons(polygons) => {
+                    let chosen = *polygons.get(dice.below(polygons.len().max(1)))?;
+                    let place = [Place::Corner, Place::Edge, Place::Inside][dice.below(3)];
+                    point_of(self.scene.corners(chosen), place, dice)
+                }
+            };
         let direction = Vec3::new(dice.unit(), dice.unit(), dice.unit()) - 0.5;
         let decades = NEAREST + (FARTHEST - NEAREST) * dice.unit();
         Some(on + direction * 10.0f32.powf(decades))
@@ -234,6 +242,14 @@ impl<'a> RayAttack<'a> {
         found.truncate(TARGETS);
         found.into_iter().map(|(_, id)| id).collect()
     }
+}
+
+/// True where each end lies so far before the other's plane that the two do not face away from each other.
+fn carries_light(from: ElementPoint, to: ElementPoint, tau: f32) -> bool {
+    let direction = (to.position - from.position).as_dvec3();
+    let leaving = from.normal.as_dvec3().dot(direction);
+    let arriving = -to.normal.as_dvec3().dot(direction);
+    leaving.min(arriving) > f64::from(tau) + ROUNDING
 }
 
 /// Where a segment is deeper than `tau` below the planes of both its ends, as fractions; `None` where

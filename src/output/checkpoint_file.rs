@@ -14,7 +14,7 @@ use std::sync::atomic::AtomicBool;
 
 const MAGIC: [u8; 8] = *b"CTLXCKPT";
 /// The layout described above.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const DIGEST_BYTES: usize = 32;
 
 /// What made a state: another program or library may round another way.

@@ -14,9 +14,18 @@ pub struct Claim {
     pub source: ElementName,
     /// The other.
     pub receiver: ElementName,
-    /// The occluder that hides them from each other, an index of the set; `None` claims that they
-    /// see each other fully.
+    /// The occluder that hides them from each other, an index of the set, or one of several that do; `None` claims
+    /// that they see each other fully.
     pub occluder: Option<u32>,
+}
+
+/// A claim, and what it rests on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProvedPair {
+    /// The claim.
+    pub claim: Claim,
+    /// Where no occluder hides the pair alone, its parts that have one; the others face away from each other. Else empty.
+    pub parts: Box<[Claim]>,
 }
 
 impl Claim {
@@ -31,7 +40,7 @@ impl Claim {
 #[derive(Clone, Debug, Default)]
 pub struct ClaimSample {
     most: usize,
-    kept: Vec<(u64, Claim)>,
+    kept: Vec<(u64, ProvedPair)>,
     offered: u64,
 }
 
@@ -50,10 +59,11 @@ impl ClaimSample {
         self.most > 0
     }
 
-    /// Offers a claim; `priority` is a hash of its pair and pass.
-    pub fn offer(&mut self, priority: u64, claim: Claim) {
+    /// Offers a claim that rests on `parts`, if any; `priority` is a hash of its pair and pass.
+    pub fn offer(&mut self, priority: u64, claim: Claim, parts: &[Claim]) {
         self.offered += 1;
-        self.kept.push((priority, claim));
+        let parts = parts.into();
+        self.kept.push((priority, ProvedPair { claim, parts }));
         if self.kept.len() >= self.most.saturating_mul(2) {
             self.shrink();
         }
@@ -72,18 +82,22 @@ impl ClaimSample {
     }
 
     /// The claims, in the order of their priorities.
-    pub fn into_claims(mut self) -> Vec<Claim> {
-        self.kept.sort_unstable_by_key(|&(priority, claim)| {
-            (priority, claim.source.node.0, claim.receiver.node.0)
+    pub fn into_claims(mut self) -> Vec<ProvedPair> {
+        self.kept.sort_unstable_by_key(|(priority, pair)| {
+            (
+                *priority,
+                pair.claim.source.node.0,
+                pair.claim.receiver.node.0,
+            )
         });
         self.kept.truncate(self.most);
-        self.kept.into_iter().map(|(_, claim)| claim).collect()
+        self.kept.into_iter().map(|(_, pair)| pair).collect()
     }
 
     fn shrink(&mut self) {
         if self.kept.len() > self.most {
             self.kept
-                .select_nth_unstable_by_key(self.most, |&(priority, _)| priority);
+                .select_nth_unstable_by_key(self.most, |(priority, _)| *priority);
             self.kept.truncate(self.most);
         }
     }
@@ -113,7 +127,7 @@ mod tests {
         let whole = |order: &mut dyn Iterator<Item = u32>| {
             let mut sample = ClaimSample::new(10);
             for i in order {
-                sample.offer(hash_u64(u64::from(i)), claim(i));
+                sample.offer(hash_u64(u64::from(i)), claim(i), &[]);
             }
             sample
         };

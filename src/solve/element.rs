@@ -178,6 +178,21 @@ impl Element {
         }
     }
 
+    /// The next smaller parts of an element, which cover it: the four triangles of a patch, the children of a cluster.
+    /// `elements` holds those of the nodes.
+    pub fn parts(&self, hierarchy: &Hierarchy, elements: &[Self]) -> Vec<Self> {
+        match self.shape {
+            Shape::Triangle(corners) => (0..4)
+                .map(|which| self.triangle_child(corners, which))
+                .collect(),
+            _ => {
+                let children = hierarchy.children(self.node);
+                let nodes = children.into_iter().flatten();
+                nodes.map(|id| elements[id.index()]).collect()
+            }
+        }
+    }
+
     /// The facet of a triangle element.
     pub fn facet(&self) -> FacetId {
         debug_assert!(matches!(self.shape, Shape::Triangle(_)));

@@ -4,7 +4,7 @@ use super::solution::PatchPath;
 use crate::math::NodeId;
 
 /// Names an element: the node, and where in its facet a patch lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ElementName {
     /// The node.
     pub node: NodeId,

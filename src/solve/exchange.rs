@@ -199,7 +199,7 @@ impl<const C: usize> Task<'_, '_, C> {
             occluder: None,
         };
         let key = exchange_key(self.pass.key, source, receiver);
-        self.outcome.blocked.offer(key, pair);
+        self.outcome.blocked.offer(key, pair, &[]);
     }
 
     /// Casts an exchange's samples: natively against a short list of polygons, else through Embree.

@@ -6,8 +6,8 @@
 //! stride, which asks for all that can be proved: it takes some ten queries to save one exchange.
 
 use super::claims::Claim;
-use super::element::{Element, Shape};
-use super::pair::name_key;
+use super::element::Element;
+use super::pair::exchange_key;
 use super::pass_context::SolveContext;
 use super::prover::Prover;
 use super::statistics::PassStatistics;
@@ -16,24 +16,14 @@ use super::task::Task;
 /// How often a pair is split, its two ends together. Measured (`bench/runs/`, audit/hidden_parts.csv): four splits find
 /// 2.5 to 4 points of the blocked exchanges of c, eight 5 to 7, twelve 7 to 9 in more than three times the time of eight.
 const MOST_SPLITS: u32 = 8;
+/// Queries after which a pair is left to its rays, however near to a proof it is.
+const MOST_QUERIES: u32 = 256;
 /// Parts of so small a radius, in tau, are not split: rounding would weigh on them as much as what they show.
 const LEAST_RADIUS_IN_TAU: f32 = 16.0;
 
-/// The next smaller parts of an element, which cover it; none of one that is not to be split.
-fn parts_of(context: &SolveContext<'_>, element: &Element) -> Vec<Element> {
-    if element.radius < LEAST_RADIUS_IN_TAU * context.tau {
-        return Vec::new();
-    }
-    match element.shape {
-        Shape::Triangle(corners) => (0..4)
-            .map(|which| element.triangle_child(corners, which))
-            .collect(),
-        _ => {
-            let children = context.hierarchy.children(element.node);
-            let elements = children.into_iter().flatten();
-            elements.map(|id| context.elements[id.index()]).collect()
-        }
-    }
+/// The end of a pair that is split next, true for the source.
+pub(super) fn splits_source(source: &Element, receiver: &Element) -> bool {
+    source.area >= receiver.area
 }
 
 /// A search for occluders between the parts of a pair.
@@ -42,8 +32,9 @@ struct PartSearch<'s, 'p, 'a> {
     prover: &'s mut Prover<'p>,
     statistics: &'s mut PassStatistics,
     pass: u32,
+    queries: u32,
     /// What has been found so far.
-    claims: Vec<Claim>,
+    found: Vec<Claim>,
 }
 
 impl PartSearch<'_, '_, '_> {
@@ -52,8 +43,8 @@ impl PartSearch<'_, '_, '_> {
         if splits == 0 {
             return false;
         }
-        let by_source = source.area >= receiver.area;
-        let parts = parts_of(self.context, if by_source { source } else { receiver });
+        let by_source = splits_source(source, receiver);
+        let parts = self.parts_of(if by_source { source } else { receiver });
         let whole = parts.iter().all(|part| {
             let (from, to) = if by_source {
                 (part, receiver)
@@ -71,10 +62,14 @@ impl PartSearch<'_, '_, '_> {
         if from.faces_away(to, tau) || to.faces_away(from, tau) {
             return true;
         }
+        if self.queries == MOST_QUERIES {
+            return false;
+        }
+        self.queries += 1;
         self.statistics.shafts += 1;
-        let found = self.prover.occluder_between(from, to);
-        if let Some(occluder) = found.occluder {
-            self.claims.push(Claim {
+        let hiding = self.prover.occluder_between(from, to);
+        if let Some(occluder) = hiding.occluder {
+            self.found.push(Claim {
                 pass: self.pass,
                 source: from.name(),
                 receiver: to.name(),
@@ -83,37 +78,48 @@ impl PartSearch<'_, '_, '_> {
             return true;
         }
         // What nothing crosses in the middle is hidden by nothing, nor by several.
-        found.may_hide && self.hides(from, to, splits)
+        hiding.may_hide && self.hides(from, to, splits)
+    }
+
+    /// The next smaller parts of an element, which cover it; none of one that is not to be split.
+    fn parts_of(&self, element: &Element) -> Vec<Element> {
+        if element.radius < LEAST_RADIUS_IN_TAU * self.context.tau {
+            return Vec::new();
+        }
+        let mut parts = element.parts(self.context.hierarchy, self.context.elements);
+        if self.prover.forgets_a_part() {
+            parts.pop();
+        }
+        parts
     }
 }
 
 impl<const C: usize> Task<'_, '_, C> {
-    /// Tries to hide the parts of a pair. If it could, what a contradiction would name: the pair, and one of the occluders;
-    /// each part is a claim of its own for the audit.
+    /// Tries to hide the parts of a pair. If it could, the claim: the pair, and one of the occluders.
     pub(super) fn hide_parts(&mut self, source: &Element, receiver: &Element) -> Option<Claim> {
         let mut search = PartSearch {
             context: &self.pass.context,
             prover: self.prover.as_mut()?,
             statistics: &mut self.outcome.statistics,
             pass: self.pass.pass,
-            claims: Vec::new(),
+            queries: 0,
+            found: Vec::new(),
         };
         if !search.hides(source, receiver, MOST_SPLITS) {
             return None;
         }
-        let claims = search.claims;
-        self.outcome.statistics.occluded_claims += claims.len() as u64;
-        if self.outcome.claims.is_wanted() {
-            for claim in &claims {
-                let key = name_key(self.pass.key, claim.source, claim.receiver);
-                self.outcome.claims.offer(key, *claim);
-            }
-        }
-        claims.first().map(|claim| Claim {
+        let parts = search.found;
+        let claim = Claim {
             source: source.name(),
             receiver: receiver.name(),
-            ..*claim
-        })
+            ..*parts.first()?
+        };
+        self.outcome.statistics.occluded_claims += 1;
+        if self.outcome.claims.is_wanted() {
+            let key = exchange_key(self.pass.key, source, receiver);
+            self.outcome.claims.offer(key, claim, &parts);
+        }
+        Some(claim)
     }
 }
 

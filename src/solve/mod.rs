@@ -71,7 +71,7 @@ mod uneven_source;
 mod walk;
 
 pub use claim_check::{ClaimCheck, Contradiction};
-pub use claims::{Claim, ClaimSample};
+pub use claims::{Claim, ClaimSample, ProvedPair};
 pub use config::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
 pub use element::{Element, Shape};
 pub use element_name::ElementName;

@@ -17,13 +17,8 @@ use super::form_factor_estimate::oracle_form_factor;
 pub enum Decision {
     /// Nothing is exchanged: proved.
     Nothing,
-    /// Go on with this chance, and then with so much more light that the mean is the same.
-    Play {
-        /// Between 0 and 1.
-        chance: f64,
-        /// What the pair carries, greatest channel: an upper bound where an end is too near or too bent to exchange.
-        power: f64,
-    },
+    /// Go on with this chance, between 0 and 1, and then with so much more light that the mean is the same.
+    Play(f64),
     /// Exchange energy at this level: the power that it carries, greatest channel.
     Exchange(f64),
     /// Replace the source by its children. The pair carries about so much power, greatest channel, estimated from
@@ -57,9 +52,6 @@ const CLUSTER_CONE_COS: f32 = 0.939_692_6;
 const CLUSTER_GAP: f32 = 2.0;
 /// Gap, in radii, from which most parts of a cluster are flat and far enough to stand as one.
 const PART_GAP: f32 = 4.0;
-/// Share of the threshold below which a pair with a non-exchanging end may be dropped (design,
-/// section 6): a thousand dropped pairs are worth one exchange.
-const DROP_SHARE: f64 = 1.0e-3;
 /// Stakes over the threshold: of pairs that would have to be taken apart because an end is a volume, too near or too
 /// bent, and of those that could exchange. Measured (`bench/runs/`, accuracy): an eighth for the latter leaves the
 /// error of cornell, d, f, corridor and two-rooms the same within the noise for 20 to 34 % fewer exchanges; a quarter
@@ -131,10 +123,7 @@ impl Oracle {
             let bound = power * f64::from(form_factor_bound(source, receiver, gap));
             let likely = bound * share_shown(source, gap) * share_shown(receiver, gap);
             if let Some(chance) = self.chance(SPLIT_STAKE, receiver, likely, weight) {
-                return Decision::Play {
-                    chance,
-                    power: bound,
-                };
+                return Decision::Play(chance);
             }
             return match (source_exchanges, receiver_exchanges) {
                 (true, false) => Decision::SplitReceiver(bound),
@@ -145,10 +134,7 @@ impl Oracle {
         }
         let carried = power * f64::from(oracle_form_factor(source, receiver));
         if let Some(chance) = self.chance(EXCHANGE_STAKE, receiver, carried, weight) {
-            return Decision::Play {
-                chance,
-                power: carried,
-            };
+            return Decision::Play(chance);
         }
         if carried < self.threshold {
             return Decision::Exchange(carried);
@@ -167,11 +153,6 @@ impl Oracle {
     fn stake(&self, share: f64, area: f32) -> f64 {
         let most = self.played_irradiance * f64::from(area);
         (share * self.threshold).min(self.played_power).min(most)
-    }
-
-    /// True when a pair that carries so little may be left out for good, as long as its owner's budget lasts.
-    pub fn may_drop(&self, power: f64) -> bool {
-        power < DROP_SHARE * self.threshold
     }
 
     /// About how many exchanges lie below a pair that carries `power` over `gap`: each carries up to the threshold, and clusters

@@ -3,7 +3,6 @@
 use super::claims::Claim;
 use super::config::SolveConfig;
 use super::element::Element;
-use super::element_name::ElementName;
 use super::prover::Knowledge;
 use crate::math::hash_u64;
 use crate::visibility::Verdict;
@@ -71,11 +70,6 @@ impl Known {
 
 /// The name of an exchange's samples: (receiver, source, pass, seed).
 pub(super) fn exchange_key(pass_key: u64, source: &Element, receiver: &Element) -> u64 {
-    name_key(pass_key, source.name(), receiver.name())
-}
-
-/// The same by the names of the ends.
-pub(super) fn name_key(pass_key: u64, source: ElementName, receiver: ElementName) -> u64 {
-    let end = |e: ElementName| hash_u64(u64::from(e.node.0) ^ e.path.0.rotate_left(32));
+    let end = |e: &Element| hash_u64(u64::from(e.node.0) ^ e.path.0.rotate_left(32));
     hash_u64(end(receiver).wrapping_add(hash_u64(end(source) ^ pass_key)))
 }

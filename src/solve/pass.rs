@@ -15,12 +15,6 @@ use crate::math::hash_u64;
 use pulp::Arch;
 use rayon::prelude::*;
 
-/// Share of the emitted power that may be dropped in pass `k`: all passes together stay below 1e-3 (design,
-/// section 6), and halving follows the unshot power down.
-fn drop_share(pass: u32) -> f64 {
-    1.0e-3 * 0.5f64.powi(pass.min(1000) as i32)
-}
-
 /// How much coarser a gradient reflected light may leave on a receiver: its sources are large, and what one of them
 /// leaves unresolved others fill in. Measured: the same error, 8 to 9 % fewer exchanges in
 /// cornell, d and two-rooms (`bench/runs/`, accuracy).
@@ -96,7 +90,6 @@ pub fn run_pass<const C: usize>(
         config,
         pass,
         key: hash_u64(config.seed ^ hash_u64(u64::from(pass))),
-        drop_budget: drop_share(pass) * emitted,
         arch: Arch::new(),
     };
     context.observer.pass_started(pass, gatherers.len());
@@ -137,7 +130,6 @@ pub fn run_pass<const C: usize>(
     };
     for TaskOutcome { outcome, .. } in outcomes {
         sum.statistics.add_counts(&outcome.statistics);
-        sum.dropped += outcome.dropped;
         sum.interrupted |= outcome.interrupted;
         sum.claims.merge(outcome.claims);
         sum.check.merge(outcome.check);

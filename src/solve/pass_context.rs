@@ -81,8 +81,6 @@ pub(super) struct Pass<'a, const C: usize> {
     pub(super) pass: u32,
     /// Hash of the seed and the pass.
     pub(super) key: u64,
-    /// Power that all owners together may drop.
-    pub(super) drop_budget: f64,
     pub(super) arch: Arch,
 }
 

@@ -275,6 +275,11 @@ impl<'a> Prover<'a> {
         }
     }
 
+    /// A planted fault.
+    pub fn forgets_a_part(&self) -> bool {
+        self.guarantees.occluders.forgets_a_part()
+    }
+
     /// What hides a part of a pair that was asked about before it exchanges.
     pub fn occluder_between(&mut self, source: &Element, receiver: &Element) -> Hiding {
         let (a, b) = (source.shaft_bounds(), receiver.shaft_bounds());

@@ -2,11 +2,11 @@
 //! built again from the scene.
 //!
 //! That is the patches made so far, their irradiance, how it varies over them, and what they have yet to shoot, the statistics of the
-//! passes, the power dropped and the scales of row normalisation. What stands above the patches, and how a patch's
+//! passes and the scales of row normalisation. What stands above the patches, and how a patch's
 //! light is spread over its children, is pulled anew, as at the end of every pass; the schedule of queries learns
 //! within one pass and is not carried over.
 //!
-//! Layout, little endian: channels (u32), passes (u32) with their statistics and scales, power dropped (f64), power
+//! Layout, little endian: channels (u32), passes (u32) with their statistics and scales, power
 //! that the last pass shot (f64 a channel), owners (u32), facets (u32); then each owner's count of facets and patches
 //! (u32 each) and its arrays.
 
@@ -26,8 +26,6 @@ pub struct Carried {
     pub scales: Vec<f64>,
     /// Power of each channel that the last pass shot.
     pub shot: Vec<f64>,
-    /// Power dropped so far, greatest channel, an upper bound.
-    pub dropped: f64,
 }
 
 /// A solve after some pass. Restored into a solver of the same scene and settings, the solve goes on to the
@@ -56,7 +54,6 @@ impl Snapshot {
             out.pass(pass);
             out.f64(*scale);
         }
-        out.f64(carried.dropped);
         carried.shot.iter().for_each(|&power| out.f64(power));
         out.u32(light.gatherers.len() as u32);
         out.u32(light.owner_of_facet.len() as u32);
@@ -163,7 +160,6 @@ fn read_carried(input: &mut Reader, channels: usize) -> Result<Carried, Snapshot
         carried.passes.push(pass);
         carried.scales.push(input.finite()?);
     }
-    carried.dropped = input.finite()?;
     for _ in 0..channels {
         carried.shot.push(input.finite()?);
     }

@@ -133,7 +133,7 @@ fn states_that_no_solve_of_this_scene_can_have_are_refused() {
         other[at] ^= 2;
         refused(other, "numbers");
     }
-    let owners = 8 + 2 * (4 + 8 + 11 * 8 + 8 + 8) + 8 + 3 * 8;
+    let owners = 8 + 2 * (4 + 8 + 11 * 8 + 8 + 8) + 3 * 8;
     let count = u32::from_le_bytes(bytes[owners..owners + 4].try_into().unwrap());
     let facets = u32::from_le_bytes(bytes[owners + 4..owners + 8].try_into().unwrap());
     assert_eq!(facets as usize, prepared.hierarchy.facets.len());

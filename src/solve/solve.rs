@@ -1,7 +1,7 @@
 //! A solve: passes until the light is spent.
 
 use super::claim_check::ClaimCheck;
-use super::claims::{Claim, ClaimSample};
+use super::claims::{ClaimSample, ProvedPair};
 use super::config::{SolveConfig, Stop, Technique};
 use super::error::SolveError;
 use super::observer::Observer;
@@ -38,7 +38,7 @@ pub struct Solved {
     /// Whether passes were scaled to conserve power (row normalisation), and the scales.
     pub normalised: Option<Vec<f64>>,
     /// Claims kept for an audit ([`SolveConfig::keep_claims`]).
-    pub claims: Vec<Claim>,
+    pub claims: Vec<ProvedPair>,
     /// What the rays of claimed exchanges said ([`SolveConfig::check_claims`]).
     pub check: ClaimCheck,
 }
@@ -98,7 +98,6 @@ impl<const C: usize> Solver<'_, C> {
             let pass = carried.passes.len() as u32 + 1;
             let (outcome, scale) = self.pass(pass, normalise)?;
             let mut statistics = outcome.statistics;
-            carried.dropped += outcome.dropped;
             carried.scales.push(scale);
             claims.merge(outcome.claims);
             check.merge(outcome.check);
@@ -118,7 +117,7 @@ impl<const C: usize> Solver<'_, C> {
             }
             _ => 0.0,
         };
-        let unshot = mean(&self.unshot_power()) + self.dropped_mean(carried.dropped);
+        let unshot = mean(&self.unshot_power());
         let power = self.ledger(unshot, extrapolated);
         let is_off = power.imbalance.abs() > IMBALANCE_TO_WARN_OF;
         if is_off && self.config.technique != Technique::Unoccluded {

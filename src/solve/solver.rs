@@ -208,16 +208,6 @@ impl<'a, const C: usize> Solver<'a, C> {
             .sum()
     }
 
-    /// Dropped power is bounded in the greatest channel; the ledger is a mean of the channels.
-    pub(super) fn dropped_mean(&self, dropped: f64) -> f64 {
-        let greatest = self.emitted.iter().copied().fold(0.0, f64::max);
-        if greatest > 0.0 {
-            dropped * mean(&self.emitted) / greatest
-        } else {
-            0.0
-        }
-    }
-
     pub(super) fn share_of_emitted(&self, power: f64) -> f64 {
         let emitted = mean(&self.emitted);
         if emitted > 0.0 { power / emitted } else { 0.0 }

@@ -69,7 +69,7 @@ pub struct PowerLedger {
     pub escaped: f64,
     /// Standard error of `escaped`.
     pub escaped_stderr: f64,
-    /// Left out of the solution: dropped, or still to be shot where passes were counted.
+    /// Left out of the solution: still to be shot where passes were counted.
     pub unshot: f64,
     /// `(emitted - absorbed - escaped - unshot) / emitted`.
     pub imbalance: f64,

@@ -29,8 +29,6 @@ pub(super) fn packets_of_exchange(rays: u32) -> f32 {
 pub struct PassOutcome {
     /// Counts; `seconds` and `unshot` are left to the caller.
     pub statistics: PassStatistics,
-    /// Power dropped, greatest channel, an upper bound.
-    pub dropped: f64,
     /// True when the observer asked to stop: the light is then worth nothing.
     pub interrupted: bool,
     /// Claims kept for an audit.
@@ -49,7 +47,6 @@ pub(super) struct Task<'a, 'g, const C: usize> {
     pub(super) outcome: PassOutcome,
     /// Segments of the exchange that is being checked; empty in between.
     pub(super) segments: Vec<(Vec3, Vec3, bool)>,
-    pub(super) drop_budget: f64,
     pub(super) visits: u32,
     counts_rays: bool,
 }
@@ -61,7 +58,6 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         schedule: &QuerySchedule,
     ) -> Self {
         let receivers = pass.context.elements[gatherer.root.index()].bounds;
-        let share = f64::from(gatherer.facet_count) / pass.owner_of_facet.len() as f64;
         Self {
             pass,
             gatherer,
@@ -72,7 +68,6 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 ..PassOutcome::default()
             },
             segments: Vec::new(),
-            drop_budget: pass.drop_budget * share,
             visits: 0,
             counts_rays: pass.context.observer.counts_rays(),
         }
@@ -221,7 +216,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         };
         if self.outcome.claims.is_wanted() {
             let key = exchange_key(self.pass.key, source.element, receiver.element);
-            self.outcome.claims.offer(key, claim);
+            self.outcome.claims.offer(key, claim, &[]);
         }
         claim
     }

@@ -50,13 +50,7 @@ impl<const C: usize> Task<'_, '_, C> {
                 .decide(source.element, receiver.element, greatest, source.weight);
         match decision {
             Decision::Nothing => {}
-            Decision::Play { power, .. }
-                if self.pass.oracle.may_drop(power)
-                    && self.outcome.dropped + power <= self.drop_budget =>
-            {
-                self.outcome.dropped += power;
-            }
-            Decision::Play { chance, .. } => {
+            Decision::Play(chance) => {
                 if self.pass.wins(source.element, receiver.element, chance) {
                     let mut source = *source;
                     source.weight /= chance;

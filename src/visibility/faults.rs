@@ -15,6 +15,9 @@ pub struct Faults {
     /// Polygons much longer than wide are taken to miss every shaft.
     #[cfg(any(test, feature = "plant-faults"))]
     pub slivers_forgotten: bool,
+    /// Pairs count as hidden by parts of which one was never looked at.
+    #[cfg(any(test, feature = "plant-faults"))]
+    pub part_forgotten: bool,
 }
 
 impl Faults {
@@ -26,6 +29,8 @@ impl Faults {
         survivors_cut: false,
         #[cfg(any(test, feature = "plant-faults"))]
         slivers_forgotten: false,
+        #[cfg(any(test, feature = "plant-faults"))]
+        part_forgotten: false,
     };
 }
 
@@ -49,4 +54,5 @@ impl Faults {
     question!(beside_counts_as_inside, beside_is_inside);
     question!(cuts_survivors, survivors_cut);
     question!(forgets_slivers, slivers_forgotten);
+    question!(forgets_a_part, part_forgotten);
 }

@@ -81,6 +81,11 @@ impl OccluderTree {
         }
     }
 
+    /// True where searches for the parts of a pair are to forget one: a planted fault.
+    pub fn forgets_a_part(&self) -> bool {
+        self.faults.forgets_a_part()
+    }
+
     /// The same tree with faults planted.
     #[cfg(any(test, feature = "plant-faults"))]
     #[must_use]

@@ -136,7 +136,7 @@ fn energy(power: &Power) -> String {
             part("absorbed by faces", power.absorbed - power.swallowed),
             part("swallowed by backs and touching faces", power.swallowed),
             part("escaped from the scene", power.escaped),
-            part("left out: not shot, or dropped", power.unshot),
+            part("left out: not shot", power.unshot),
         ],
     );
     let _ = writeln!(
