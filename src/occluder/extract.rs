@@ -15,6 +15,7 @@ use crate::math::NodeId;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// The weld distance w as a fraction of the scene's diagonal: cracks narrower than about half of it
 /// count as closed, and no claim is made about segments within w of a polygon.
@@ -38,6 +39,7 @@ pub fn extract_occluders(
     hierarchy: &Hierarchy,
     config: &OccluderConfig,
 ) -> OccluderSet {
+    let start = Instant::now();
     let diagonal = f64::from(scene.bounds().diagonal());
     let scale = Scale {
         weld: WELD * diagonal,
@@ -52,8 +54,11 @@ pub fn extract_occluders(
         set.statistics = add(set.statistics, &cluster);
         set.occluders.extend(cluster.occluders);
     }
+    set.seconds.rectangles = start.elapsed().as_secs_f64();
     if config.solids {
+        let start = Instant::now();
         set.solids = find_solids(scene, &set.occluders, scale.weld);
+        set.seconds.solids = start.elapsed().as_secs_f64();
     }
     set
 }

@@ -30,6 +30,6 @@ mod tests;
 pub use candidate::flat_clusters;
 pub use config::OccluderConfig;
 pub use extract::extract_occluders;
-pub use set::{Occluder, OccluderSet, OccluderStatistics};
+pub use set::{ExtractionSeconds, Occluder, OccluderSet, OccluderStatistics};
 pub use slab::SlabRectangle;
 pub use solid::Solid;

@@ -30,6 +30,17 @@ pub struct OccluderSet {
     pub solids: Vec<Solid>,
     /// Counts and areas.
     pub statistics: OccluderStatistics,
+    /// Wall time of the search for rectangles and for solids.
+    pub seconds: ExtractionSeconds,
+}
+
+/// Wall time of an extraction's stages.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ExtractionSeconds {
+    /// Rectangles: the paper's extraction.
+    pub rectangles: f64,
+    /// Solids behind them.
+    pub solids: f64,
 }
 
 /// Counts and areas of an extraction; areas in normalised units squared.

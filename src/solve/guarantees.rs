@@ -2,7 +2,9 @@
 
 use super::config::Technique;
 use crate::cluster::Hierarchy;
-use crate::occluder::{OccluderConfig, OccluderSet, SlabRectangle, extract_occluders};
+use crate::occluder::{
+    ExtractionSeconds, OccluderConfig, OccluderSet, SlabRectangle, extract_occluders,
+};
 use crate::scene::Scene;
 #[cfg(any(test, feature = "plant-faults"))]
 use crate::visibility::Faults;
@@ -25,11 +27,22 @@ pub struct Guarantees {
     pub empty_boxes: EmptyBoxes,
     /// The list with which the topmost pair starts.
     pub whole_scene: SurvivorList,
-    /// Wall time of it all.
-    pub seconds: f64,
+    /// Wall time of its stages.
+    pub seconds: GuaranteeSeconds,
     /// What tests plant in visibility queries; nothing can be planted in a product.
     #[cfg(any(test, feature = "plant-faults"))]
     faults: Faults,
+}
+
+/// Wall time of the stages; the polygons are sorted beside the extraction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuaranteeSeconds {
+    /// Rectangles and solids.
+    pub extraction: ExtractionSeconds,
+    /// Boxes of air.
+    pub empty_boxes: f64,
+    /// All of it.
+    pub total: f64,
 }
 
 impl Guarantees {
@@ -76,8 +89,12 @@ impl Guarantees {
             whole_scene: SurvivorList::whole_scene(&tree),
             scene: tree,
             empty_boxes: EmptyBoxes::default(),
+            seconds: GuaranteeSeconds {
+                extraction: occluder_set.seconds,
+                empty_boxes: 0.0,
+                total: start.elapsed().as_secs_f64(),
+            },
             occluder_set,
-            seconds: start.elapsed().as_secs_f64(),
             #[cfg(any(test, feature = "plant-faults"))]
             faults: Faults::NONE,
         }
@@ -88,7 +105,8 @@ impl Guarantees {
     pub(super) fn with_empty_boxes(mut self, draw: impl FnOnce() -> Vec<[Vec3; 2]>) -> Self {
         let start = Instant::now();
         self.empty_boxes = EmptyBoxes::build(&self.scene, &draw());
-        self.seconds += start.elapsed().as_secs_f64();
+        self.seconds.empty_boxes = start.elapsed().as_secs_f64();
+        self.seconds.total += self.seconds.empty_boxes;
         self
     }
 

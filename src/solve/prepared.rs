@@ -30,6 +30,8 @@ pub struct PreparedScene {
 pub struct StageSeconds {
     /// Embree's build.
     pub embree: f64,
+    /// Which sides exist.
+    pub sides: f64,
     /// Sides and hierarchy.
     pub cluster: f64,
 }
@@ -51,11 +53,13 @@ impl PreparedScene {
         let embree = CommittedScene::build(&device, &scene.positions, &triangles)?;
         let built = Instant::now();
         let facets = resolve_sides(&scene, &embree, sides, seed);
+        let sided = Instant::now();
         let hierarchy = build_hierarchy(&scene, &facets, &ClusterConfig::default());
         Ok(Self {
             embree_version: device.version(),
             seconds: StageSeconds {
                 embree: (built - start).as_secs_f64(),
+                sides: (sided - built).as_secs_f64(),
                 cluster: built.elapsed().as_secs_f64(),
             },
             scene,
