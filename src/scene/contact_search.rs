@@ -6,12 +6,11 @@
 //! through a back. Sheets have nothing there, and two shells laid into each other are left and entered at once.
 
 use super::contacts::Contacts;
-use super::facet::Side;
 use super::flat::{Flat, are_apart};
 use super::model::Scene;
 use super::overlap::Overlaps;
 use super::polygon_tree::{MOST_VISITS, PolygonTree};
-use super::side_graph::{SideIndex, side_index};
+use super::side_graph::SideIndex;
 use crate::math::{Aabb, PolygonId};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -25,21 +24,14 @@ const REACH: f64 = 64.0;
 const PLACES: [f64; 2] = [0.371, 0.613];
 
 /// The parts of sides of `scene` that solids hide by standing on them, and those that others own.
-pub(super) fn find_contacts(scene: &Scene, overlaps: &Overlaps) -> Contacts {
-    let tree = PolygonTree::new(scene);
+pub(super) fn find_contacts(tree: &PolygonTree, scene: &Scene, overlaps: &Overlaps) -> Contacts {
     let tau = scene.tau();
-    let pairs: Vec<(SideIndex, PolygonId)> = (0..scene.polygons.len())
-        .into_par_iter()
-        .flat_map_iter(|i| against(scene, &tree, tau, PolygonId::new(i)))
-        .collect();
-    let mut fronts: Vec<PolygonId> = pairs.iter().map(|p| p.1).collect();
+    let mut fronts: Vec<PolygonId> = overlaps.against.iter().map(|p| p.1).collect();
     fronts.sort_unstable();
     fronts.dedup();
-    let feet = feet(scene, &tree, tau, &fronts);
-    let standing = pairs
-        .into_iter()
-        .filter(|(_, front)| feet.binary_search(front).is_ok());
-    let mut hiding: Vec<_> = standing.chain(overlaps.partly.iter().copied()).collect();
+    let feet = feet(scene, tree, tau, &fronts);
+    let standing = (overlaps.against.iter()).filter(|(_, front)| feet.binary_search(front).is_ok());
+    let mut hiding: Vec<_> = standing.chain(&overlaps.partly).copied().collect();
     hiding.sort_unstable();
     hiding.dedup();
     let covers: Vec<(SideIndex, [Vec3; 3])> = hiding
@@ -47,34 +39,6 @@ pub(super) fn find_contacts(scene: &Scene, overlaps: &Overlaps) -> Contacts {
         .map(|(side, front)| (side, scene.corners(front)))
         .collect();
     Contacts::new(2 * scene.polygons.len(), &covers, tau)
-}
-
-/// The sides of polygon `id` against which fronts of others lie, with those others, sorted.
-fn against(
-    scene: &Scene,
-    tree: &PolygonTree,
-    tau: f32,
-    id: PolygonId,
-) -> Vec<(SideIndex, PolygonId)> {
-    let mut found = Vec::new();
-    let Some(own) = Flat::new(scene, id) else {
-        return found;
-    };
-    for other in nearby(scene, tree, tau, id) {
-        let Some(lying) = own.coplanar(scene, other, tau) else {
-            continue;
-        };
-        if !are_apart(&own.corners, &lying.corners, tau) {
-            let side = if lying.same_way {
-                Side::Back
-            } else {
-                Side::Front
-            };
-            found.push((side_index(id, side), other));
-        }
-    }
-    found.sort_unstable();
-    found
 }
 
 /// Polygons near the plane patch of `id`, without itself.

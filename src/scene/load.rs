@@ -14,7 +14,8 @@ use super::normalise::normalisation_of;
 use super::obj_parse::{RawMesh, parse_obj};
 use super::obj_scan::{ObjScan, scan_obj};
 use super::orientation::own_axes;
-use super::overlap::{Overlaps, find_overlaps};
+use super::overlap::{Overlaps, find_overlaps_by};
+use super::polygon_tree::PolygonTree;
 use super::polygons::{Pieces, Tally, cut_faces};
 use super::side_graph::{SideIndex, facet_at};
 use super::surface::{Canvas, assign_surfaces};
@@ -179,10 +180,11 @@ fn load(
         contacts: Contacts::default(),
         warnings,
     };
-    let overlaps = find_overlaps(&scene);
+    let tree = PolygonTree::new(&scene);
+    let overlaps = find_overlaps_by(&tree, &scene);
     let sides = 0..2 * scene.polygons.len() as SideIndex;
     let covered = sides.filter(|&side| overlaps.is_covered(facet_at(side)));
-    scene.contacts = find_contacts(&scene, &overlaps).with_covered(covered.collect());
+    scene.contacts = find_contacts(&tree, &scene, &overlaps).with_covered(covered.collect());
     warn_of_overlaps(&mut scene, &overlaps);
     Ok(scene)
 }

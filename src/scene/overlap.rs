@@ -32,6 +32,9 @@ pub struct Overlaps {
     pub unchecked: usize,
     /// Sides covered in part, each with a polygon that covers some of it, sorted.
     pub(super) partly: Vec<(SideIndex, PolygonId)>,
+    /// Sides against which the fronts of others lie within tau, each with one of those, sorted. None of polygons whose
+    /// search was given up.
+    pub(super) against: Vec<(SideIndex, PolygonId)>,
 }
 
 impl Overlaps {
@@ -48,6 +51,8 @@ struct Cover {
     back: Covered,
     /// Sides, and the polygons that own parts of them.
     owners: Vec<(Side, PolygonId)>,
+    /// Sides, and the polygons whose fronts lie against them.
+    against: Vec<(Side, PolygonId)>,
     gave_up: bool,
 }
 
@@ -62,11 +67,15 @@ enum Covered {
 
 /// Finds the sides of `scene` that lie within tau of each other and face the same way.
 pub fn find_overlaps(scene: &Scene) -> Overlaps {
-    let tree = PolygonTree::new(scene);
+    find_overlaps_by(&PolygonTree::new(scene), scene)
+}
+
+/// The same by the tree of the scene's polygons.
+pub(super) fn find_overlaps_by(tree: &PolygonTree, scene: &Scene) -> Overlaps {
     let tau = scene.tau();
     let covers: Vec<Cover> = (0..scene.polygons.len())
         .into_par_iter()
-        .map(|i| cover_of(scene, &tree, tau, PolygonId::new(i)))
+        .map(|i| cover_of(scene, tree, tau, PolygonId::new(i)))
         .collect();
     let mut overlaps = Overlaps {
         covered: Vec::with_capacity(2 * covers.len()),
@@ -84,6 +93,10 @@ pub fn find_overlaps(scene: &Scene) -> Overlaps {
                 overlaps.partly.push((side_index(id, side), owner));
             }
         }
+        let against = cover.against.into_iter().filter(|_| !cover.gave_up);
+        overlaps
+            .against
+            .extend(against.map(|(side, front)| (side_index(id, side), front)));
         overlaps.covered.push(cover.front == Covered::Wholly);
         overlaps.covered.push(cover.back == Covered::Wholly);
         overlaps.unchecked += usize::from(cover.gave_up);
@@ -97,6 +110,7 @@ pub fn find_overlaps(scene: &Scene) -> Overlaps {
         }
     }
     overlaps.partly.sort_unstable();
+    overlaps.against.sort_unstable();
     let whole: f64 = (0..scene.polygons.len())
         .map(|i| scene.polygon_area(PolygonId::new(i)))
         .sum();
@@ -134,6 +148,12 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
         } else {
             [Side::Back, Side::Front]
         };
+        let facing_it = if lying.same_way {
+            Side::Back
+        } else {
+            Side::Front
+        };
+        cover.against.push((facing_it, other));
         if first(Side::Front, on_front) && front.subtract(&lying.corners) {
             cover.owners.push((Side::Front, other));
         }

@@ -7,7 +7,6 @@
 
 use super::facet::{Facet, Side};
 use super::model::Scene;
-use super::overlap::find_overlaps;
 use super::side_graph::{SideGraph, SideIndex, facet_at, side_index};
 use crate::embree::{CommittedScene, Hit, Ray};
 use crate::math::{PolygonId, SampleSequence, hash_u64};
@@ -46,14 +45,13 @@ type Link = (SideIndex, SideIndex);
 
 /// The sides of `scene` that take part, ordered by polygon, front before back. `committed` holds the
 /// scene's triangles in order. A polygon neither of whose sides is reached keeps its front: it stays dark,
-/// but is written out with the others. Sides that others cover wholly (see [`find_overlaps`]) have no part in any mode.
+/// but is written out with the others. Sides that others cover wholly (see [`super::Contacts::is_covered`]) have no part in any mode.
 pub fn resolve_sides(
     scene: &Scene,
     committed: &CommittedScene,
     mode: SidesMode,
     seed: u64,
 ) -> Vec<Facet> {
-    let covered = find_overlaps(scene);
     let wanted: Vec<bool> = match mode {
         SidesMode::One => [true, false].repeat(scene.polygons.len()),
         SidesMode::Two => vec![true; 2 * scene.polygons.len()],
@@ -68,7 +66,7 @@ pub fn resolve_sides(
     (0..2 * scene.polygons.len() as SideIndex)
         .filter(|&side| wanted[side as usize])
         .map(facet_at)
-        .filter(|&facet| !covered.is_covered(facet))
+        .filter(|&facet| !scene.contacts.is_covered(facet))
         .collect()
 }
 

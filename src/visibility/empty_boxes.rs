@@ -43,38 +43,40 @@ impl EmptyBoxes {
         let slack = 4.0 * scene.tolerance().tau;
         let mut boxes: Vec<EmptyBox> = Vec::new();
         // Sights that no box holds yet, and how many of them have been seeds.
-        let mut open: Vec<[Vec3; 2]> = sights.to_vec();
+        let mut open = OpenSights::new(sights);
         let mut tried = 0;
         let mut poor = 0;
-        while tried < open.len() && poor < POOR_BATCHES {
-            let seeds = &open[tried..open.len().min(tried + BATCH)];
+        while tried < open.sights.len() && poor < POOR_BATCHES {
+            let seeds = &open.sights[tried..open.sights.len().min(tried + BATCH)];
             let grow = |grower: &mut BoxGrower, &seed: &[Vec3; 2]| {
                 let found = grower.grow(Aabb::from_points(seed))?;
                 let loose = Aabb {
                     min: found.min - slack,
                     max: found.max + slack,
                 };
-                let is_held = |&at: &usize| open[at].iter().all(|&p| loose.contains(p));
-                Some((found, (0..open.len()).filter(is_held).collect()))
+                Some((found, open.held_by(loose)))
             };
             let grown: Vec<Option<(Aabb, Vec<usize>)>> =
                 seeds.par_iter().map_init(|| grower.clone(), grow).collect();
             let before = boxes.len();
-            let mut is_open = vec![true; open.len()];
+            let mut is_open = vec![true; open.sights.len()];
             for (found, mut held) in grown.into_iter().flatten() {
                 held.retain(|&at| is_open[at]);
                 if held.len() >= LEAST_GAIN {
                     held.iter().for_each(|&at| is_open[at] = false);
                     boxes.push(EmptyBox {
                         bounds: found,
-                        sights: held.into_iter().map(|at| open[at]).collect(),
+                        sights: held.into_iter().map(|at| open.sights[at]).collect(),
                     });
                 }
             }
             poor = if boxes.len() > before { 0 } else { poor + 1 };
             tried = (0..tried + seeds.len()).filter(|&at| is_open[at]).count();
-            let mut at = 0..;
-            open.retain(|_| at.next().is_some_and(|at| is_open[at]));
+            if boxes.len() > before {
+                let mut kept = is_open.iter();
+                open.sights.retain(|_| kept.next() == Some(&true));
+                open = OpenSights::new(&open.sights);
+            }
         }
         boxes.sort_by_key(|found| std::cmp::Reverse(found.sights.len()));
         Self { boxes }
@@ -123,6 +125,43 @@ impl EmptyBoxes {
     pub fn bytes(&self) -> usize {
         let sights: usize = self.boxes.iter().map(|b| b.sights.len()).sum();
         size_of_val(self.boxes.as_slice()) + sights * size_of::<[Vec3; 2]>()
+    }
+}
+
+/// Sights that no box holds yet, and the boxes around them with a coordinate an array: every box that has been grown is
+/// held against all of them.
+struct OpenSights {
+    sights: Vec<[Vec3; 2]>,
+    low: [Vec<f32>; 3],
+    high: [Vec<f32>; 3],
+}
+
+impl OpenSights {
+    fn new(sights: &[[Vec3; 2]]) -> Self {
+        let along = |of: fn(Vec3, Vec3) -> Vec3, axis: usize| {
+            sights.iter().map(|&[p, q]| of(p, q)[axis]).collect()
+        };
+        Self {
+            sights: sights.to_vec(),
+            low: [0, 1, 2].map(|axis| along(Vec3::min, axis)),
+            high: [0, 1, 2].map(|axis| along(Vec3::max, axis)),
+        }
+    }
+
+    /// Places of the sights both of whose points lie within `bounds`, ascending.
+    fn held_by(&self, bounds: Aabb) -> Vec<usize> {
+        let mut is_held = vec![1_u8; self.sights.len()];
+        for axis in 0..3 {
+            let (min, max) = (bounds.min[axis], bounds.max[axis]);
+            let ends = self.low[axis].iter().zip(&self.high[axis]);
+            for (is_held, (&low, &high)) in is_held.iter_mut().zip(ends) {
+                *is_held &= u8::from(low >= min) & u8::from(high <= max);
+            }
+        }
+        let places = is_held.iter().enumerate();
+        places
+            .filter_map(|(at, &held)| (held == 1).then_some(at))
+            .collect()
     }
 }
 
