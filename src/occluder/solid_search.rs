@@ -46,6 +46,9 @@ const MOST_VISITS: usize = 8192;
 /// Cosine from which two planes are parallel; what it leaves, the distances of corners decide.
 const PARALLEL: f64 = 1.0 - 1.0e-5;
 
+/// No face is covered.
+const NOTHING: [[bool; 2]; 3] = [[false; 2]; 3];
+
 /// The solids that have one of the largest of `occluders` as a face: the same ones, in the same order, at any number of
 /// threads.
 pub(super) fn find_solids(scene: &Scene, occluders: &[Occluder], weld: f64) -> Vec<Solid> {
@@ -114,16 +117,23 @@ impl SolidSearch<'_> {
                     u.as_vec3(),
                     v.as_vec3(),
                 ],
-                covered: [[false; 2]; 3],
+                covered: NOTHING,
             };
-            // The sides first: without any, the rectangle and what is across from it hide nothing together.
-            for axis in [1, 2, 0] {
-                if axis == 0 && solid.covered == [[false; 2]; 3] {
-                    break;
+            // What the deepest one lacks comes first: without any of that, this one has no more.
+            if let Some(deepest) = solids.first() {
+                let lacking = deepest.covered.map(|ends| ends.map(|covered| !covered));
+                self.look_at(&mut solid, lacking);
+                if solid.covered == NOTHING {
+                    continue;
                 }
-                for (i, side) in [-1.0, 1.0].into_iter().enumerate() {
-                    solid.covered[axis][i] = self.covers(&solid, axis, side);
+                self.look_at(&mut solid, deepest.covered);
+            } else {
+                // The sides first: without any, the rectangle and what is across from it hide nothing together.
+                self.look_at(&mut solid, [[false; 2], [true; 2], [true; 2]]);
+                if solid.covered == NOTHING {
+                    continue;
                 }
+                self.look_at(&mut solid, [[true; 2], [false; 2], [false; 2]]);
             }
             let adjacent = (0..3)
                 .filter(|&axis| solid.covered[axis].contains(&true))
@@ -141,6 +151,17 @@ impl SolidSearch<'_> {
             }
         }
         solids
+    }
+
+    /// Notes which of the wanted faces are covered.
+    fn look_at(&self, solid: &mut Solid, wanted: [[bool; 2]; 3]) {
+        for (axis, ends) in wanted.into_iter().enumerate() {
+            for (i, side) in [-1.0, 1.0].into_iter().enumerate() {
+                if ends[i] {
+                    solid.covered[axis][i] = self.covers(solid, axis, side);
+                }
+            }
+        }
     }
 
     /// How deep polygons at right angles to a rectangle reach that meet its border, deepest first.
