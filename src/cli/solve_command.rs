@@ -20,8 +20,8 @@ use super::solve_settings::settings;
 use super::summary::print_summary;
 use crate::job::MemoryEstimate;
 use crate::output::{
-    ContentBlock, Fingerprint, HierarchyBlock, OutputError, OutputsBlock, PreparationBlock,
-    SceneBlock, SecondsBlock, SolvedMesh, Staging, StatsFile, file_hash, write_ply,
+    ContentBlock, Fingerprint, HierarchyBlock, OutputError, OutputsBlock, SceneBlock, SecondsBlock,
+    SolvedMesh, Staging, StatsFile, file_hash, write_ply,
 };
 use crate::solve::{
     ClaimCheck, Guarantees, PreparedScene, SolveConfig, Solved, Stop, resume, solve,
@@ -158,13 +158,10 @@ fn solve_and_write(
         embree: prepared.seconds.embree,
         solve: solve_seconds,
         output: writing.elapsed().as_secs_f64(),
-    };
-    stats.preparation_seconds = PreparationBlock {
-        sides: prepared.seconds.sides,
-        clusters: prepared.seconds.cluster - prepared.seconds.sides,
-        rectangles: guaranteed.extraction.rectangles,
-        solids: guaranteed.extraction.solids,
-        empty_boxes: guaranteed.empty_boxes,
+        cluster_sides: prepared.seconds.sides,
+        occluders_rectangles: guaranteed.extraction.rectangles,
+        occluders_solids: guaranteed.extraction.solids,
+        occluders_empty_boxes: guaranteed.empty_boxes,
     };
     stats.write(&stats_path, &session.interrupted)?;
     let files = staging.publish()?;
@@ -274,7 +271,6 @@ fn stats_file(
         },
         passes: solved.passes.clone(),
         seconds: SecondsBlock::default(),
-        preparation_seconds: PreparationBlock::default(),
         power: solved.power,
         row_scales: solved.normalised.clone(),
     }

@@ -92,9 +92,7 @@ pub use reference_file::{
 pub use report::{ReportError, write_report};
 pub use solved_mesh::{SolvedFace, SolvedMesh};
 pub use staging::Staging;
-pub use stats_file::{
-    HierarchyBlock, PreparationBlock, SceneBlock, SecondsBlock, StatsFile, write_json, write_text,
-};
+pub use stats_file::{HierarchyBlock, SceneBlock, SecondsBlock, StatsFile, write_json, write_text};
 pub use sweep_plot::{SweepCost, write_sweep_plot};
 pub use sweep_table::{
     DEFAULTS, NamedSettings, SweepKey, SweepMeta, read_sweep, sweep_csv, write_sweep,

@@ -54,8 +54,6 @@ pub struct StatsFile {
     pub passes: Vec<PassStatistics>,
     /// Wall time of each stage.
     pub seconds: SecondsBlock,
-    /// What the stages before the passes consist of.
-    pub preparation_seconds: PreparationBlock,
     /// Where the light went.
     pub power: PowerLedger,
     /// By how much row normalisation scaled what arrived in each pass; absent where it was off.
@@ -119,22 +117,14 @@ pub struct SecondsBlock {
     pub solve: f64,
     /// Writing results, up to this file.
     pub output: f64,
-}
-
-/// Wall time within `seconds.cluster` (the first two) and `seconds.occluders`, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct PreparationBlock {
-    /// Which sides of polygons light reaches, and which overlap.
-    pub sides: f64,
-    /// Face and volume clustering.
-    pub clusters: f64,
-    /// Rectangles on flat clusters (paper, section 3.2).
-    pub rectangles: f64,
-    /// Solids behind rectangles.
-    pub solids: f64,
-    /// Boxes of air.
-    pub empty_boxes: f64,
+    /// Of `cluster`: which sides of polygons light reaches.
+    pub cluster_sides: f64,
+    /// Of `occluders`: rectangles on flat clusters (paper, section 3.2).
+    pub occluders_rectangles: f64,
+    /// Of `occluders`: solids behind rectangles.
+    pub occluders_solids: f64,
+    /// Of `occluders`: boxes of air.
+    pub occluders_empty_boxes: f64,
 }
 
 impl StatsFile {
@@ -278,7 +268,6 @@ mod tests {
             hierarchy: HierarchyBlock::default(),
             passes: vec![PassStatistics::default(); 2],
             seconds: SecondsBlock::default(),
-            preparation_seconds: PreparationBlock::default(),
             power: PowerLedger::default(),
             row_scales: None,
         }
@@ -299,7 +288,7 @@ mod tests {
             rays_blocked native_rays native_rays_blocked shafts occluded_claims visible_claims \
             exchanges_visible unshot \
             seconds load cluster occluders embree solve output \
-            preparation_seconds sides clusters rectangles solids empty_boxes \
+            cluster_sides occluders_rectangles occluders_solids occluders_empty_boxes \
             power emitted absorbed escaped escaped_stderr unshot imbalance"
             .split_whitespace()
         {
