@@ -198,3 +198,35 @@ impl NearbyBoxes {
         sticks_out.contains(&0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::SampleSequence;
+
+    /// Against each point on its own; some points lie on the box's border.
+    #[test]
+    fn a_box_holds_the_sights_both_of_whose_points_lie_in_it() {
+        let sequence = SampleSequence::new(7);
+        // On a grid of eighths.
+        let point = |index: u32| {
+            let [x, y, z, _] = sequence.point(index);
+            (Vec3::new(x, y, z) * 8.0).floor() / 8.0
+        };
+        let sights: Vec<[Vec3; 2]> = (0..1003)
+            .map(|i| [point(2 * i), point(2 * i + 1)])
+            .collect();
+        let open = OpenSights::new(&sights);
+        for bounds in (5000..5064).map(|i| Aabb::from_points([point(2 * i), point(2 * i + 1)])) {
+            let expected: Vec<usize> = (0..sights.len())
+                .filter(|&at| sights[at].iter().all(|&p| bounds.contains(p)))
+                .collect();
+            assert_eq!(open.held_by(bounds), expected);
+        }
+        let all = Aabb {
+            min: Vec3::ZERO,
+            max: Vec3::ONE,
+        };
+        assert_eq!(open.held_by(all).len(), sights.len());
+    }
+}
