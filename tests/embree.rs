@@ -147,7 +147,8 @@ fn a_quad_blocks_what_crosses_it_and_nothing_else() {
     assert_eq!(hit_any, expected);
     let hit = hits[0].unwrap();
     assert_eq!(hit.polygon, PolygonId(0));
-    assert_eq!(hit.t, 0.5);
+    // Embree divides by an estimated reciprocal and refines it: the last bits are the processor's.
+    assert!((hit.t - 0.5).abs() < 1e-6, "{}", hit.t);
     // The point is a + u (b - a) + v (c - a) with a = (0,0), b = (1,0), c = (1,1).
     assert!((hit.u - 0.1).abs() < 1e-6 && (hit.v - 0.2).abs() < 1e-6);
     // Counter-clockwise seen from +z: (b - a) x (c - a) = +z, from whichever side it is hit.

@@ -1,12 +1,17 @@
 //! No claim of full occlusion that exact arithmetic does not bear out, and none that a descendant's
-//! rounding could break.
+//! rounding could break: by a rectangle, by a solid, or by a surface that the corners of both make.
 
 #![no_main]
 
 use certilux::math::Aabb;
 use certilux::occluder::{SlabRectangle, Solid};
-use certilux::visibility::exact::{replay_occlusion, replay_solid_occlusion};
-use certilux::visibility::{BoundsShape, ElementBounds, OccluderTree, OcclusionScratch, Tolerance};
+use certilux::visibility::exact::{
+    replay_occlusion, replay_solid_occlusion, replay_surface_occlusion,
+};
+use certilux::visibility::{
+    BoundsShape, ElementBounds, OccluderTree, OcclusionScratch, SceneTree, SurfaceEdges,
+    SurfaceQuery, SurfaceScratch, Tolerance,
+};
 use certilux_fuzz::{Bytes, element, slab};
 use glam::Vec3;
 use libfuzzer_sys::fuzz_target;
@@ -55,6 +60,20 @@ fuzz_target!(|data: &[u8]| {
             let b = strayed(&b, bytes, 0.9 * tolerance.nesting);
             assert_eq!(replay_occlusion(slab, &a, &b, &tolerance), Ok(()));
         }
+    }
+    // Triangles between their corners hang together at many edges.
+    let corners: Vec<Vec3> = slabs.iter().flat_map(|slab| slab.corners).collect();
+    let mut corner = || corners[bytes.below(corners.len())];
+    let triangles: Vec<[Vec3; 3]> = (0..24)
+        .map(|_| [corner(), corner(), corner()])
+        .filter(|[u, v, w]| (*v - *u).cross(*w - *u).length() > 0.0)
+        .collect();
+    let scene = SceneTree::over_triangles(&triangles, tolerance);
+    let edges = SurfaceEdges::new(triangles);
+    let query = SurfaceQuery::new(&scene, &edges);
+    if let Some(seed) = query.run(&a, &b, &mut SurfaceScratch::default()).surface {
+        let surface = query.surface(&a, &b, seed).expect("found again");
+        assert_eq!(replay_surface_occlusion(&surface, &a, &b, &tolerance), Ok(()));
     }
     // The boxes under the rectangles, some of their faces open.
     let solids: Vec<Solid> = slabs.iter().map(|slab| solid_under(slab, bytes)).collect();

@@ -1,7 +1,7 @@
 //! Presets of the solver: how good, and so how dear.
 //!
-//! Chosen from the grid of epsilon, rays and convergence on cornell, d and f, not by taste (`bench/runs/`, sweep/parts): `draft`
-//! stands on the Pareto front of error against processor time in all three, `high` within 1 % of it.
+//! Chosen from the grid of epsilon, rays and convergence on cornell, d and f, not by taste (`bench/runs/`, sweep/linear): `draft`
+//! stands on the Pareto front of error against processor time in all three, `high` on it or next to it.
 
 use crate::solve::{SolveConfig, Stop};
 use clap::ValueEnum;
@@ -37,7 +37,6 @@ impl Quality {
         match self {
             Self::Draft => SolveConfig {
                 epsilon: 1.0e-4,
-                rays: 4,
                 stop: Stop::Converged(1.0e-2),
                 ..normal
             },

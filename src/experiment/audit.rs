@@ -15,9 +15,10 @@ use super::ray_attack::{AttackOutcome, RayAttack};
 use super::shaft_replay::replay_visibility;
 use crate::math::{PolygonId, hash_u64};
 use crate::solve::{
-    Claim, Element, ElementName, Guarantees, Observer, PreparedScene, ProvedPair, SolveConfig,
-    SolveError, solve,
+    Claim, Element, ElementName, Guarantees, HiddenBy, Observer, PreparedScene, ProvedPair,
+    SolveConfig, SolveError, solve,
 };
+use crate::visibility::ElementBounds;
 use crate::visibility::exact::SegmentStanding;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -124,12 +125,32 @@ impl<'a> Auditor<'a> {
         ClaimedOccluder::of(&self.guarantees.occluder_set, index)
     }
 
+    /// What hides the pair of a claim; nothing where it is claimed to be visible.
+    fn hidden_by(&self, claim: &Claim) -> Option<ClaimedOccluder<'a>> {
+        Some(match claim.occluder? {
+            HiddenBy::Occluder(index) => self.occluder(index),
+            HiddenBy::Surface(polygon) => {
+                let [a, b] = self.bounds(claim);
+                let found = self.guarantees.surface_query().surface(&a, &b, polygon);
+                ClaimedOccluder::Surface(found.unwrap_or_default())
+            }
+        })
+    }
+
+    fn bounds(&self, claim: &Claim) -> [ElementBounds; 2] {
+        let ends = claim.elements(&self.prepared.scene, &self.prepared.hierarchy);
+        ends.map(|end| end.shaft_bounds())
+    }
+
     /// Once per occluder: does its rectangle lie in continuous surface, or is it closed on all sides?
     fn occluders(&self, claims: &[ProvedPair], report: &mut AuditReport) {
         let mut claimed: Vec<u32> = claims
             .iter()
             .flat_map(|pair| std::iter::once(&pair.claim).chain(&pair.parts))
-            .filter_map(|claim| claim.occluder)
+            .filter_map(|claim| match claim.occluder? {
+                HiddenBy::Occluder(index) => Some(index),
+                HiddenBy::Surface(_) => None,
+            })
             .collect();
         claimed.sort_unstable();
         claimed.dedup();
@@ -200,8 +221,10 @@ impl<'a> Auditor<'a> {
         } else {
             report.occlusion_claims += 1;
             report.claims_by_parts += u64::from(!pair.parts.is_empty());
+            let by_surface = |claim: &Claim| matches!(claim.occluder, Some(HiddenBy::Surface(_)));
+            report.claims_by_surfaces += u64::from(pair.proofs().iter().any(by_surface));
             let flaws = report.contradictions_standing;
-            self.replay_hidden(pair, &mut report);
+            self.replay_hidden(pair, &occluders, &mut report);
             report.occlusion_proofs += u64::from(report.contradictions_standing == flaws);
         }
         let outcome = self.attack.attack(
@@ -214,37 +237,32 @@ impl<'a> Auditor<'a> {
         report
     }
 
-    /// What hides the pair: nothing where it is claimed to be visible.
+    /// What hides the pair, or its parts one by one: nothing where it is claimed to be visible.
     fn occluders_of(&self, pair: &ProvedPair) -> Vec<ClaimedOccluder<'a>> {
-        let claims: &[Claim] = match pair.parts.is_empty() {
-            true => std::slice::from_ref(&pair.claim),
-            false => &pair.parts,
-        };
-        let indices = claims.iter().filter_map(|claim| claim.occluder);
-        indices.map(|index| self.occluder(index)).collect()
+        let claims = pair.proofs().iter();
+        claims.filter_map(|claim| self.hidden_by(claim)).collect()
     }
 
     /// Does the occluder cut every segment of the pair, or each part's that of the part, and do the parts cover the pair?
-    fn replay_hidden(&self, pair: &ProvedPair, report: &mut AuditReport) {
-        let (scene, hierarchy) = (&self.prepared.scene, &self.prepared.hierarchy);
-        let mut replay = |claim: &Claim| {
-            let Some(index) = claim.occluder else { return };
-            let ends = claim.elements(scene, hierarchy);
-            let [a, b] = ends.each_ref().map(|e| e.shaft_bounds());
-            let tolerance = self.guarantees.scene.tolerance();
-            if let Err(flaw) = self.occluder(index).replay(&a, &b, tolerance) {
+    fn replay_hidden(
+        &self,
+        pair: &ProvedPair,
+        occluders: &[ClaimedOccluder],
+        report: &mut AuditReport,
+    ) {
+        let tolerance = self.guarantees.scene.tolerance();
+        for (claim, occluder) in pair.proofs().iter().zip(occluders) {
+            let [a, b] = self.bounds(claim);
+            if let Err(flaw) = occluder.replay(&a, &b, tolerance) {
                 report.add(Flaw::OcclusionProof {
                     claim: claim.into(),
                     reason: flaw.to_string(),
                 });
             }
-        };
-        if pair.parts.is_empty() {
-            replay(&pair.claim);
-            return;
         }
-        pair.parts.iter().for_each(replay);
-        if let Some([from, to]) = self.cover.find_gap(pair) {
+        if !pair.parts.is_empty()
+            && let Some([from, to]) = self.cover.find_gap(pair)
+        {
             report.add(Flaw::PartNotHidden {
                 claim: (&pair.claim).into(),
                 part: [from.name().into(), to.name().into()],

@@ -1,6 +1,6 @@
 //! What an audit found: counts, and the first contradictions that stand.
 
-use crate::solve::{Claim, ElementName};
+use crate::solve::{Claim, ElementName, HiddenBy};
 use serde::Serialize;
 
 /// Contradictions that are kept for the report; more are counted only.
@@ -17,6 +17,8 @@ pub struct AuditReport {
     pub occlusion_claims: u64,
     /// Those of them that rest on parts of the pair, each with an occluder of its own.
     pub claims_by_parts: u64,
+    /// Those of them that rest, whole or in part, on surfaces that are no occluders of the set.
+    pub claims_by_surfaces: u64,
     /// Those of full visibility.
     pub visibility_claims: u64,
     /// Occluders that these claims rest on.
@@ -107,9 +109,12 @@ pub struct ClaimRecord {
     pub source: ElementRecord,
     /// The other.
     pub receiver: ElementRecord,
-    /// The occluder, or one of several; none claims full visibility.
+    /// The occluder, or one of several. Without it and `surface` full visibility is claimed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub occluder: Option<u32>,
+    /// A polygon of the surface, or of one of several, that hides the pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface: Option<u32>,
 }
 
 /// An element: a node, and the path of splits to a patch (1 for a whole node).
@@ -132,11 +137,17 @@ impl From<ElementName> for ElementRecord {
 
 impl From<&Claim> for ClaimRecord {
     fn from(claim: &Claim) -> Self {
+        let (occluder, surface) = match claim.occluder {
+            Some(HiddenBy::Occluder(index)) => (Some(index), None),
+            Some(HiddenBy::Surface(polygon)) => (None, Some(polygon.0)),
+            None => (None, None),
+        };
         Self {
             pass: claim.pass,
             source: claim.source.into(),
             receiver: claim.receiver.into(),
-            occluder: claim.occluder,
+            occluder,
+            surface,
         }
     }
 }
@@ -159,6 +170,7 @@ impl AuditReport {
     pub(super) fn merge(&mut self, part: Self) {
         self.occlusion_claims += part.occlusion_claims;
         self.claims_by_parts += part.claims_by_parts;
+        self.claims_by_surfaces += part.claims_by_surfaces;
         self.visibility_claims += part.visibility_claims;
         self.occlusion_proofs += part.occlusion_proofs;
         self.visibility_proofs += part.visibility_proofs;

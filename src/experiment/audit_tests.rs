@@ -336,6 +336,40 @@ fn a_part_that_is_never_looked_at_is_found() {
 }
 
 #[test]
+fn a_surface_with_a_hole_is_found() {
+    // A folded screen across the room: no rectangle hides more than one wing does.
+    let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+    let wings = |low: f32, high: f32| {
+        (0..4).map(move |i| {
+            let (y, next) = (0.25 * i as f32 - 0.5, 0.25 * (i + 1) as f32 - 0.5);
+            let (x, past) = (0.1 * (i % 2) as f32, 0.1 * ((i + 1) % 2) as f32);
+            [
+                at(x, y, low),
+                at(past, next, low),
+                at(past, next, high),
+                at(x, y, high),
+            ]
+        })
+    };
+    let mut screen: Vec<[Vec3; 4]> = [-0.5, 0.0]
+        .map(|z| wings(z, z + 0.5))
+        .into_iter()
+        .flatten()
+        .collect();
+    assert!(assert_clean(&room_with(&screen)).claims_by_surfaces > 10);
+    screen.remove(1);
+    let with_hole = room_with(&screen);
+    assert_clean(&with_hole);
+    let faults = Faults {
+        borders_forgotten: true,
+        ..Faults::NONE
+    };
+    let report = audit_of(&with_faults(with_hole, faults));
+    assert!(finds(&report, |f| matches!(f, Flaw::OcclusionProof { .. })));
+    assert!(finds(&report, is_segment));
+}
+
+#[test]
 fn a_survivor_list_cut_short_is_found() {
     let prepared = builtin("cornell");
     assert_clean(&prepared);

@@ -14,6 +14,10 @@ pub struct BaselineKey {
     pub arch: String,
     /// Fingerprint of the mathematical functions of the system's library.
     pub libm: String,
+    /// Fingerprint of the processor's estimate of reciprocals, from which Embree works out where a ray hits. Empty in
+    /// baselines of earlier versions.
+    #[serde(default)]
+    pub reciprocal: String,
 }
 
 impl BaselineKey {
@@ -24,6 +28,7 @@ impl BaselineKey {
             isa: isa.to_owned(),
             arch: std::env::consts::ARCH.to_owned(),
             libm: libm_fingerprint(),
+            reciprocal: reciprocal_fingerprint(),
         }
     }
 }
@@ -42,6 +47,27 @@ fn libm_fingerprint() -> String {
         add(x.powf(2.4));
     }
     format!("{hash:016x}")
+}
+
+/// A hash of what the processor estimates reciprocals to be: each maker's table is another, within the same error.
+#[cfg(target_arch = "x86_64")]
+fn reciprocal_fingerprint() -> String {
+    use pulp::{f32x4, x86::V1};
+    let Some(simd) = V1::try_new() else {
+        return String::new();
+    };
+    let hash = (0..4096_u16).fold(0_u64, |hash, i| {
+        let x = 1.0 + f32::from(i) / 4096.0;
+        let estimate = simd.approx_reciprocal_f32x4(f32x4(x, x, x, x)).0;
+        hash_u64(hash ^ u64::from(estimate.to_bits()))
+    });
+    format!("{hash:016x}")
+}
+
+/// Other families of processors have one estimate each, which their name stands for.
+#[cfg(not(target_arch = "x86_64"))]
+fn reciprocal_fingerprint() -> String {
+    String::new()
 }
 
 /// The compiler that built this program, as it names itself; instructions depend on it.

@@ -1,4 +1,4 @@
-//! What an occlusion claim rests on, a rectangle or a solid: its proofs, and where to aim at it.
+//! What an occlusion claim rests on, a rectangle, a solid or a surface: its proofs, and where to aim at it.
 
 use super::continuous_surface::{SurfaceProof, prove_closed, prove_surface};
 use super::dice::Dice;
@@ -7,15 +7,19 @@ use crate::cluster::Hierarchy;
 use crate::math::NodeId;
 use crate::occluder::{Occluder, OccluderSet, Solid};
 use crate::scene::Scene;
-use crate::visibility::exact::{OcclusionFlaw, replay_occlusion, replay_solid_occlusion};
-use crate::visibility::{ElementBounds, Tolerance};
+use crate::visibility::exact::{
+    OcclusionFlaw, replay_occlusion, replay_solid_occlusion, replay_surface_occlusion,
+};
+use crate::visibility::{CuttingSurface, ElementBounds, Tolerance};
 use glam::{DVec3, Vec3};
 
-/// A rectangle or a solid that was claimed to hide a pair.
-#[derive(Clone, Copy)]
+/// What was claimed to hide a pair.
+#[derive(Clone)]
 pub(super) enum ClaimedOccluder<'a> {
     Rectangle(&'a Occluder),
     Solid(&'a Solid),
+    /// Empty where the engine does not find it again.
+    Surface(CuttingSurface),
 }
 
 impl<'a> ClaimedOccluder<'a> {
@@ -28,16 +32,16 @@ impl<'a> ClaimedOccluder<'a> {
     }
 
     /// The node of a rectangle.
-    pub fn node(self) -> Option<NodeId> {
+    pub fn node(&self) -> Option<NodeId> {
         match self {
             Self::Rectangle(occluder) => Some(occluder.node),
-            Self::Solid(_) => None,
+            Self::Solid(_) | Self::Surface(_) => None,
         }
     }
 
-    /// Shows that surface covers it; else a point that nothing covers.
+    /// Shows that surface covers it; else a point that nothing covers. A surface covers itself.
     pub fn prove(
-        self,
+        &self,
         scene: &Scene,
         hierarchy: &Hierarchy,
         weld: f64,
@@ -45,12 +49,13 @@ impl<'a> ClaimedOccluder<'a> {
         match self {
             Self::Rectangle(occluder) => prove_surface(scene, hierarchy, occluder, weld),
             Self::Solid(solid) => prove_closed(scene, solid, weld),
+            Self::Surface(_) => Ok(SurfaceProof::Chain),
         }
     }
 
     /// Shows in exact arithmetic that all segments between `a` and `b` cross it.
     pub fn replay(
-        self,
+        &self,
         a: &ElementBounds,
         b: &ElementBounds,
         tolerance: &Tolerance,
@@ -58,11 +63,12 @@ impl<'a> ClaimedOccluder<'a> {
         match self {
             Self::Rectangle(occluder) => replay_occlusion(&occluder.slab, a, b, tolerance),
             Self::Solid(solid) => replay_solid_occlusion(solid, a, b, tolerance),
+            Self::Surface(surface) => replay_surface_occlusion(surface, a, b, tolerance),
         }
     }
 
     /// A point of its border, or, since cracks run there, of an edge of the surface that it stands on.
-    pub fn border_point(self, scene: &Scene, hierarchy: &Hierarchy, dice: &mut Dice) -> Vec3 {
+    pub fn border_point(&self, scene: &Scene, hierarchy: &Hierarchy, dice: &mut Dice) -> Vec3 {
         let along = |start: Vec3, end: Vec3, dice: &mut Dice| start + (end - start) * dice.unit();
         match self {
             Self::Rectangle(occluder) if dice.below(2) == 0 => {
@@ -80,6 +86,13 @@ impl<'a> ClaimedOccluder<'a> {
                 let i = dice.below(4);
                 along(face[i].as_vec3(), face[(i + 1) % 4].as_vec3(), dice)
             }
+            Self::Surface(surface) => match surface.polygons.as_slice() {
+                [] => Vec3::ZERO,
+                polygons => {
+                    let polygon = polygons[dice.below(polygons.len())].map(|c| c.as_vec3());
+                    point_of(polygon, Place::Edge, dice)
+                }
+            },
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::element::Element;
 use super::element_name::ElementName;
 use crate::cluster::Hierarchy;
+use crate::math::PolygonId;
 use crate::scene::Scene;
 
 /// A proved pair.
@@ -14,9 +15,17 @@ pub struct Claim {
     pub source: ElementName,
     /// The other.
     pub receiver: ElementName,
-    /// The occluder that hides them from each other, an index of the set, or one of several that do; `None` claims
-    /// that they see each other fully.
-    pub occluder: Option<u32>,
+    /// What hides them from each other, or one of several that do; `None` claims that they see each other fully.
+    pub occluder: Option<HiddenBy>,
+}
+
+/// What hides a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HiddenBy {
+    /// An occluder: its index in the set.
+    Occluder(u32),
+    /// A surface that cuts all segments: one of its polygons.
+    Surface(PolygonId),
 }
 
 /// A claim, and what it rests on.
@@ -26,6 +35,16 @@ pub struct ProvedPair {
     pub claim: Claim,
     /// Where no occluder hides the pair alone, its parts that have one; the others face away from each other. Else empty.
     pub parts: Box<[Claim]>,
+}
+
+impl ProvedPair {
+    /// The claims that were proved each by one thing: the claim itself, or its parts.
+    pub fn proofs(&self) -> &[Claim] {
+        match self.parts.is_empty() {
+            true => std::slice::from_ref(&self.claim),
+            false => &self.parts,
+        }
+    }
 }
 
 impl Claim {

@@ -115,6 +115,9 @@ impl<const C: usize> Task<'_, '_, C> {
                             return Next::SplitShadow(known);
                         };
                         self.outcome.statistics.exchanges_visible += 1;
+                        if let Some(prover) = &mut self.prover {
+                            prover.book_visible(known.knowledge, packets);
+                        }
                         share
                     }
                     // Reached only while claims are being checked.
@@ -233,6 +236,9 @@ impl<const C: usize> Task<'_, '_, C> {
                 let statistics = &mut self.outcome.statistics;
                 statistics.native_rays += u64::from(sampled.rays);
                 statistics.native_rays_blocked += u64::from(sampled.rays_blocked);
+                if let Some(prover) = &mut self.prover {
+                    prover.book_native(packets_of_exchange(rays));
+                }
                 return sampled;
             }
         }

@@ -2,6 +2,7 @@
 
 use super::config::Technique;
 use crate::cluster::Hierarchy;
+use crate::math::PolygonId;
 use crate::occluder::{
     ExtractionSeconds, OccluderConfig, OccluderSet, SlabRectangle, extract_occluders,
 };
@@ -9,9 +10,11 @@ use crate::scene::Scene;
 #[cfg(any(test, feature = "plant-faults"))]
 use crate::visibility::Faults;
 use crate::visibility::{
-    EmptyBoxes, OccluderTree, SceneTree, SurvivorList, Tolerance, VisibilityQuery,
+    EmptyBoxes, OccluderTree, SceneTree, SurfaceEdges, SurfaceQuery, SurvivorList, Tolerance,
+    VisibilityQuery,
 };
 use glam::Vec3;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// The occluders and the scene as shafts meet them. Techniques that prove nothing have none of it.
@@ -25,6 +28,8 @@ pub struct Guarantees {
     pub scene: SceneTree,
     /// Boxes of air; none where nobody has looked for them.
     pub empty_boxes: EmptyBoxes,
+    /// How polygons hang together; worked out when somebody first asks.
+    surface_edges: OnceLock<SurfaceEdges>,
     /// The list with which the topmost pair starts.
     pub whole_scene: SurvivorList,
     /// Wall time of its stages.
@@ -89,6 +94,7 @@ impl Guarantees {
             whole_scene: SurvivorList::whole_scene(&tree),
             scene: tree,
             empty_boxes: EmptyBoxes::default(),
+            surface_edges: OnceLock::new(),
             seconds: GuaranteeSeconds {
                 extraction: occluder_set.seconds,
                 empty_boxes: 0.0,
@@ -122,6 +128,19 @@ impl Guarantees {
     /// Queries for full visibility.
     pub fn visibility_query(&self) -> VisibilityQuery<'_> {
         let query = VisibilityQuery::new(&self.scene);
+        #[cfg(any(test, feature = "plant-faults"))]
+        let query = query.with_faults(self.faults);
+        query
+    }
+
+    /// Queries for surfaces that cut every segment of a pair.
+    pub fn surface_query(&self) -> SurfaceQuery<'_> {
+        let edges = self.surface_edges.get_or_init(|| {
+            let mut polygons: Vec<(PolygonId, [Vec3; 3])> = self.scene.polygons().collect();
+            polygons.sort_unstable_by_key(|(id, _)| *id);
+            SurfaceEdges::new(polygons.into_iter().map(|(_, corners)| corners).collect())
+        });
+        let query = SurfaceQuery::new(&self.scene, edges);
         #[cfg(any(test, feature = "plant-faults"))]
         let query = query.with_faults(self.faults);
         query

@@ -68,12 +68,12 @@ impl PartSearch<'_, '_, '_> {
         self.queries += 1;
         self.statistics.shafts += 1;
         let hiding = self.prover.occluder_between(from, to);
-        if let Some(occluder) = hiding.occluder {
+        if let Some(by) = hiding.by {
             self.found.push(Claim {
                 pass: self.pass,
                 source: from.name(),
                 receiver: to.name(),
-                occluder: Some(occluder),
+                occluder: Some(by),
             });
             return true;
         }

@@ -32,6 +32,7 @@ mod hidden_parts;
 mod irradiance_kernel;
 #[cfg(test)]
 mod irradiance_tests;
+mod knowledge;
 mod ledger;
 mod observer;
 mod oracle;
@@ -48,6 +49,8 @@ mod push_pull;
 mod queries;
 mod query_record;
 mod query_schedule;
+#[cfg(test)]
+mod query_schedule_tests;
 mod radiosity;
 mod receiver_spread;
 #[cfg(test)]
@@ -71,7 +74,7 @@ mod uneven_source;
 mod walk;
 
 pub use claim_check::{ClaimCheck, Contradiction};
-pub use claims::{Claim, ClaimSample, ProvedPair};
+pub use claims::{Claim, ClaimSample, HiddenBy, ProvedPair};
 pub use config::{ConfigError, Normalise, SolveConfig, Stop, Stride, Technique};
 pub use element::{Element, Shape};
 pub use element_name::ElementName;

@@ -3,7 +3,7 @@
 use super::claims::Claim;
 use super::config::SolveConfig;
 use super::element::Element;
-use super::prover::Knowledge;
+use super::knowledge::Knowledge;
 use crate::math::hash_u64;
 use crate::visibility::Verdict;
 

@@ -9,7 +9,7 @@ use super::oracle::Oracle;
 use super::pass_context::{Pass, SolveContext};
 use super::query_schedule::QuerySchedule;
 use super::radiosity::Radiosity;
-use super::task::{PassOutcome, Task, packets_of_exchange};
+use super::task::{PassOutcome, Task};
 use super::walk::TaskOutcome;
 use crate::math::hash_u64;
 use pulp::Arch;
@@ -111,14 +111,9 @@ pub fn run_pass<const C: usize>(
             .collect()
     };
     let mut outcomes = run_some(true, &QuerySchedule::new(config.technique));
-    let seen: u64 = outcomes
-        .iter()
-        .map(|t| t.outcome.statistics.exchanges_visible)
-        .sum();
     let learned = QuerySchedule::after(
         config.technique,
         outcomes.iter().filter_map(|t| t.schedule.as_ref()),
-        seen as f64 * f64::from(packets_of_exchange(config.rays)),
     );
     outcomes.extend(run_some(false, &learned));
     // Summed in order, so that the sums have the same bits at any number of threads.

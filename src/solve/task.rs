@@ -2,12 +2,13 @@
 //! section 5.3).
 
 use super::claim_check::ClaimCheck;
-use super::claims::{Claim, ClaimSample};
+use super::claims::{Claim, ClaimSample, HiddenBy};
 use super::config::Stride;
 use super::element::Element;
+use super::knowledge::Proof;
 use super::pair::{Known, Receiver, Source, exchange_key};
 use super::pass_context::Pass;
-use super::prover::{Proof, Prover};
+use super::prover::Prover;
 use super::queries::{Evidence, Occasion, Queries};
 use super::query_schedule::QuerySchedule;
 use super::radiosity::Gatherer;
@@ -118,16 +119,19 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
 
     /// Known to be visible if a box of air holds both.
     pub(super) fn look_for_air(&mut self, source: &Source, receiver: &Receiver, known: &mut Known) {
+        let (from, to) = (source.element, receiver.element);
         if let Some(prover) = &self.prover
-            && prover.finds_air(source.element, receiver.element, known.knowledge)
+            && prover.may_find_air(from, to, known.knowledge)
+            && prover.finds_air(from, to)
         {
             self.outcome.statistics.visible_claims += 1;
-            known.knowledge = known.knowledge.visible();
+            known.knowledge = known.knowledge.in_air();
             known.claim = Some(self.claim(source, receiver, None));
         }
     }
 
-    /// Asks about a pair that is about to be split and carries `power`, where that is due.
+    /// Asks about a pair that is about to be split and carries `power`, where that is due. If it was asked in vain what
+    /// hides the pair: the packets that were expected below it.
     #[inline(always)]
     pub(super) fn prove_before_split(
         &mut self,
@@ -135,16 +139,17 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         receiver: &Receiver,
         power: f64,
         known: &mut Known,
-    ) {
-        let Some(prover) = &mut self.prover else {
-            return;
-        };
+    ) -> Option<f32> {
+        let prover = self.prover.as_mut()?;
         if known.knowledge.verdict != Verdict::Unknown {
-            return;
+            return None;
         }
         let may_ask = prover.may_ask(known.knowledge, source.weight > 1.0);
-        if may_ask || prover.has_air() {
-            self.look_and_ask(source, receiver, power, known, may_ask);
+        let (from, to) = (source.element, receiver.element);
+        if may_ask || prover.may_find_air(from, to, known.knowledge) {
+            self.look_and_ask(source, receiver, power, known, may_ask)
+        } else {
+            None
         }
     }
 
@@ -157,7 +162,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         power: f64,
         known: &mut Known,
         may_ask: bool,
-    ) {
+    ) -> Option<f32> {
         self.look_for_air(source, receiver, known);
         let (from, to, pass) = (source.element, receiver.element, self.pass);
         if let Some(prover) = &mut self.prover
@@ -169,6 +174,26 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                     * packets_of_exchange(pass.config.rays)
             });
             self.prove(source, receiver, known, queries, occasion);
+            let is_vain = known.knowledge.verdict == Verdict::Unknown;
+            if is_vain && queries == Queries::Occlusion {
+                return Some(occasion.packets());
+            }
+        }
+        None
+    }
+
+    /// Samples tested so far.
+    pub(super) fn rays_tested(&self) -> u64 {
+        self.outcome.statistics.rays + self.outcome.statistics.native_rays
+    }
+
+    /// Lets the schedule know what became of `expected` packets below a pair: the samples tested since there were so many
+    /// as `before`.
+    pub(super) fn book_below(&mut self, expected: f32, before: u64) {
+        let tested = (self.rays_tested() - before) as f32;
+        let rays = self.pass.config.rays;
+        if let Some(prover) = &mut self.prover {
+            prover.book_below(expected, tested / rays as f32 * packets_of_exchange(rays));
         }
     }
 
@@ -193,7 +218,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
             &mut self.outcome.statistics,
         );
         if proof.knowledge.verdict != known.knowledge.verdict {
-            known.claim = Some(self.claim(source, receiver, proof.hiding.occluder));
+            known.claim = Some(self.claim(source, receiver, proof.hiding.by));
         }
         known.knowledge = proof.knowledge;
         let is_last = matches!(occasion, Occasion::Exchange(_))
@@ -207,7 +232,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
     }
 
     /// A new claim, kept if an audit wants it.
-    fn claim(&mut self, source: &Source, receiver: &Receiver, occluder: Option<u32>) -> Claim {
+    fn claim(&mut self, source: &Source, receiver: &Receiver, occluder: Option<HiddenBy>) -> Claim {
         let claim = Claim {
             pass: self.pass.pass,
             source: source.element.name(),

@@ -94,15 +94,19 @@ impl<const C: usize> Task<'_, '_, C> {
         by_source: bool,
     ) {
         let mut known = *known;
-        self.prove_before_split(source, receiver, power, &mut known);
+        let vain = self.prove_before_split(source, receiver, power, &mut known);
         if known.ends_the_pair(self.pass.config) {
             return;
         }
+        let before = self.rays_tested();
         known.descend();
         if by_source {
             self.split_source(source, receiver, &known);
         } else {
             self.split_receiver(source, receiver, greatest, &known);
+        }
+        if let Some(expected) = vain {
+            self.book_below(expected, before);
         }
     }
 

@@ -105,19 +105,20 @@ impl EmptyBoxes {
             .boxes
             .iter()
             .filter(|found| found.bounds.distance(receivers) <= 0.0);
-        let mut ranked: Vec<(usize, Aabb)> = near
-            .map(|found| {
+        let mut near: Vec<&EmptyBox> = near.collect();
+        // Where all have room nothing hangs on their order.
+        if near.len() > 8 {
+            near.sort_by_cached_key(|found| {
                 let ends = |sight: &&[Vec3; 2]| sight.iter().any(|&p| receivers.contains(p));
-                (found.sights.iter().filter(ends).count(), found.bounds)
-            })
-            .collect();
-        ranked.sort_by_key(|&(here, _)| std::cmp::Reverse(here));
+                std::cmp::Reverse(found.sights.iter().filter(ends).count())
+            });
+        }
         let mut octet = BoxOctet::EMPTY;
-        for (lane, &(_, bounds)) in ranked.iter().take(8).enumerate() {
-            octet.set(lane, bounds);
+        for (lane, found) in near.iter().take(8).enumerate() {
+            octet.set(lane, found.bounds);
         }
         NearbyBoxes {
-            octet: (!ranked.is_empty()).then_some(octet),
+            octet: (!near.is_empty()).then_some(octet),
         }
     }
 

@@ -18,6 +18,9 @@ pub struct Faults {
     /// Pairs count as hidden by parts of which one was never looked at.
     #[cfg(any(test, feature = "plant-faults"))]
     pub part_forgotten: bool,
+    /// Surfaces count as cutting a shaft though they have a border in it.
+    #[cfg(any(test, feature = "plant-faults"))]
+    pub borders_forgotten: bool,
 }
 
 impl Faults {
@@ -31,6 +34,8 @@ impl Faults {
         slivers_forgotten: false,
         #[cfg(any(test, feature = "plant-faults"))]
         part_forgotten: false,
+        #[cfg(any(test, feature = "plant-faults"))]
+        borders_forgotten: false,
     };
 }
 
@@ -55,4 +60,5 @@ impl Faults {
     question!(cuts_survivors, survivors_cut);
     question!(forgets_slivers, slivers_forgotten);
     question!(forgets_a_part, part_forgotten);
+    question!(forgets_borders, borders_forgotten);
 }

@@ -4,6 +4,7 @@ mod blockers;
 mod bounds;
 mod box_growth;
 mod crossing;
+mod cutting_surface;
 mod empty_boxes;
 pub mod exact;
 mod faults;
@@ -25,6 +26,8 @@ mod slab_planes;
 mod solid_occlusion;
 mod solid_tree;
 mod stored_polygon;
+mod surface_edges;
+mod surface_pair;
 mod survivors;
 mod tolerance;
 mod trimmed;
@@ -36,6 +39,7 @@ mod wide_tree_builder;
 
 pub use blockers::BlockerList;
 pub use bounds::{BoundsShape, ElementBounds};
+pub use cutting_surface::{CuttingSurface, SurfaceAnswer, SurfaceQuery, SurfaceScratch};
 pub use empty_boxes::{EmptyBoxes, NearbyBoxes};
 pub use faults::Faults;
 pub use full_visibility::VisibilityQuery;
@@ -48,6 +52,7 @@ pub use sample_points::{PointOctet, Surface, children_of_triangle};
 pub use sampling::{AllClear, SampleOctet, SampledVisibility, SegmentTest, sample_visibility};
 pub use scene_tree::SceneTree;
 pub use shaft_walk::VisibilityScratch;
+pub use surface_edges::SurfaceEdges;
 pub use survivors::SurvivorList;
 pub use tolerance::Tolerance;
 pub use trimmed::LEAST_COSINE;
@@ -71,6 +76,8 @@ mod occlusion_proofs;
 mod proof_stage;
 #[cfg(test)]
 mod solid_proofs;
+#[cfg(test)]
+mod surface_proofs;
 #[cfg(test)]
 mod survivor_proofs;
 #[cfg(test)]

@@ -7,10 +7,10 @@
 use super::bounds::ElementBounds;
 use super::faults::Faults;
 use super::occlusion::OccluderFaces;
-use super::probe_segment::ProbeSegment;
+use super::probe_segment::{ProbeSegment, SegmentWalk};
 use super::solid_tree::{SolidAnswer, SolidTree};
 use super::tolerance::Tolerance;
-use super::wide_tree::{ChildRef, WideLeaf, WideTree};
+use super::wide_tree::{WideLeaf, WideTree};
 use crate::math::Aabb;
 use crate::occluder::{SlabRectangle, Solid};
 use glam::Vec3;
@@ -202,55 +202,40 @@ impl OccluderTree {
             }
         }
         let segment = ProbeSegment::new(a.centre(), b.centre());
-        let inverse = segment.inverse();
-        scratch.stack.clear();
-        scratch.stack.push(0);
-        while let Some(index) = scratch.stack.pop() {
-            let node = &self.tree.nodes[index as usize];
+        let mut walk = SegmentWalk::new(&segment, &self.tree, &mut scratch.stack);
+        while let Some(leaf) = walk.next_leaf() {
             answer.nodes += 1;
-            let mut hits = segment.meets_boxes(inverse, node);
-            while hits != 0 {
-                let lane = hits.trailing_zeros() as usize;
-                hits &= hits - 1;
-                let child = node.children[lane];
-                if child == ChildRef::NONE {
+            let octet = &self.leaves[leaf];
+            let crossed = octet.crossed_by(&segment);
+            if crossed == 0 {
+                continue;
+            }
+            answer.centre_blocked = true;
+            // Two more segments that an occluder has to cross: most candidates fail one.
+            let (first, second) = (a.corner_count() - 1, b.corner_count() - 1);
+            let probe = ProbeSegment::new(a.corner(0), b.corner(second));
+            let mut candidates = crossed & octet.crossed_by(&probe);
+            if candidates == 0 {
+                continue;
+            }
+            let probe = ProbeSegment::new(a.corner(first), b.corner(0));
+            candidates &= octet.crossed_by(&probe);
+            while candidates != 0 {
+                let id = octet.ids[candidates.trailing_zeros() as usize];
+                candidates &= candidates - 1;
+                if *last == Some(id) {
                     continue;
                 }
-                if !child.is_leaf() {
-                    scratch.stack.push(child.index() as u32);
-                    continue;
-                }
-                answer.nodes += 1;
-                let octet = &self.leaves[child.index()];
-                let crossed = octet.crossed_by(&segment);
-                if crossed == 0 {
-                    continue;
-                }
-                answer.centre_blocked = true;
-                // Two more segments that an occluder has to cross: most candidates fail one.
-                let (first, second) = (a.corner_count() - 1, b.corner_count() - 1);
-                let probe = ProbeSegment::new(a.corner(0), b.corner(second));
-                let mut candidates = crossed & octet.crossed_by(&probe);
-                if candidates == 0 {
-                    continue;
-                }
-                let probe = ProbeSegment::new(a.corner(first), b.corner(0));
-                candidates &= octet.crossed_by(&probe);
-                while candidates != 0 {
-                    let id = octet.ids[candidates.trailing_zeros() as usize];
-                    candidates &= candidates - 1;
-                    if *last == Some(id) {
-                        continue;
-                    }
-                    answer.tests += 1;
-                    if self.faces[id as usize].occludes_with(a, b, &self.tolerance, self.faults) {
-                        answer.occluder = Some(id);
-                        *last = Some(id);
-                        return answer;
-                    }
+                answer.tests += 1;
+                if self.faces[id as usize].occludes_with(a, b, &self.tolerance, self.faults) {
+                    answer.occluder = Some(id);
+                    answer.nodes += walk.nodes;
+                    *last = Some(id);
+                    return answer;
                 }
             }
         }
+        answer.nodes += walk.nodes;
         answer
     }
 }

@@ -11,7 +11,7 @@
 use super::bounds::{BoundsShape, ElementBounds};
 use super::tolerance::Tolerance;
 use super::wide_tree::BoxOctet;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Unit roundoff of f32.
 const U: f32 = 1.0 / 16_777_216.0;
@@ -85,6 +85,40 @@ impl Shaft {
     /// The box of the union with its margins.
     pub(super) fn bounds(&self) -> (Vec3, Vec3) {
         (self.low, self.high)
+    }
+
+    /// Those planes of the shaft, by number, that have both points beyond them even when moved outwards by `apart`.
+    pub(super) fn planes_before(
+        &self,
+        u: DVec3,
+        v: DVec3,
+        apart: f64,
+    ) -> impl Iterator<Item = usize> + '_ {
+        let (low, high) = (u.min(v), u.max(v));
+        let sides = (0..3).flat_map(move |axis| {
+            [
+                (2 * axis, high[axis] < f64::from(self.low[axis]) - apart),
+                (2 * axis + 1, low[axis] > f64::from(self.high[axis]) + apart),
+            ]
+        });
+        let slanted = (0..self.count).map(move |k| {
+            let normal = self.normals[k].as_dvec3();
+            // The shaft's own margins are a billion times what f64 rounds here.
+            let offset = f64::from(self.offsets[k]) + apart * normal.length();
+            (6 + k, normal.dot(u) > offset && normal.dot(v) > offset)
+        });
+        sides
+            .chain(slanted)
+            .filter(|(_, beyond)| *beyond)
+            .map(|(plane, _)| plane)
+    }
+
+    /// The outward unit normal of a plane, by its number among [`Self::planes_before`].
+    pub(super) fn unit_normal(&self, plane: usize) -> DVec3 {
+        match plane.checked_sub(6) {
+            Some(slanted) => self.normals[slanted].as_dvec3().normalize(),
+            None => DVec3::AXES[plane / 2] * if plane.is_multiple_of(2) { -1.0 } else { 1.0 },
+        }
     }
 
     /// All planes are in: what is inside all of them is inside the shaft.

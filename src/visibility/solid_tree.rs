@@ -1,10 +1,10 @@
 //! All solids in a flat hierarchy, and the query for one that blocks a whole pair.
 
 use super::bounds::ElementBounds;
-use super::probe_segment::ProbeSegment;
+use super::probe_segment::{ProbeSegment, SegmentWalk};
 use super::solid_occlusion::SolidBox;
 use super::tolerance::Tolerance;
-use super::wide_tree::{ChildRef, WideLeaf, WideTree};
+use super::wide_tree::{WideLeaf, WideTree};
 use crate::math::Aabb;
 use crate::occluder::Solid;
 
@@ -55,7 +55,7 @@ impl SolidTree {
     }
 
     /// Looks for a solid that meets every segment between `a` and `b`, among those that meet the segment between their
-    /// centres. There is at least one; `stack` is lent.
+    /// centres. `stack` is lent.
     #[inline(always)]
     pub fn query(
         &self,
@@ -65,41 +65,27 @@ impl SolidTree {
         stack: &mut Vec<u32>,
     ) -> SolidAnswer {
         let mut answer = SolidAnswer::default();
-        let inverse = between_centres.inverse();
-        stack.clear();
-        stack.push(0);
-        while let Some(index) = stack.pop() {
-            let node = &self.tree.nodes[index as usize];
-            answer.nodes += 1;
-            let mut hits = between_centres.meets_boxes(inverse, node);
-            while hits != 0 {
-                let child = node.children[hits.trailing_zeros() as usize];
-                hits &= hits - 1;
-                if child == ChildRef::NONE {
+        let mut walk = SegmentWalk::new(between_centres, &self.tree, stack);
+        while let Some(leaf) = walk.next_leaf() {
+            for &id in &self.tree.leaves[leaf].primitives {
+                if id == WideLeaf::NONE {
+                    break;
+                }
+                let Some(solid) = &self.boxes[id as usize] else {
+                    continue;
+                };
+                if !solid.meets_segment(between_centres) {
                     continue;
                 }
-                if !child.is_leaf() {
-                    stack.push(child.index() as u32);
-                    continue;
-                }
-                for &id in &self.tree.leaves[child.index()].primitives {
-                    if id == WideLeaf::NONE {
-                        break;
-                    }
-                    let Some(solid) = &self.boxes[id as usize] else {
-                        continue;
-                    };
-                    if !solid.meets_segment(between_centres) {
-                        continue;
-                    }
-                    answer.tests += 1;
-                    if solid.occludes(a, b) {
-                        answer.solid = Some(id);
-                        return answer;
-                    }
+                answer.tests += 1;
+                if solid.occludes(a, b) {
+                    answer.solid = Some(id);
+                    answer.nodes = walk.nodes;
+                    return answer;
                 }
             }
         }
+        answer.nodes = walk.nodes;
         answer
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
 /// Why the proof of an occlusion claim does not hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OcclusionFlaw {
     /// A corner is not beyond the slab by more than `tau`, or not on its element's side.
     #[error("the slab does not separate the elements by more than tau")]
@@ -28,6 +28,23 @@ pub enum OcclusionFlaw {
     /// Segments may come into the solid and leave it through faces that nothing covers.
     #[error("segments may pass the solid through faces that are open")]
     OpenFace,
+    /// A polygon of the surface may come within `tau` of an element.
+    #[error("the surface comes within tau of an element")]
+    TouchesSurface,
+    /// The surface is taken to stick out by the weld distance or more.
+    #[error("the surface sticks out too far")]
+    LongOverhang,
+    /// Segments may pass the border of the surface.
+    #[error("segments may pass the border of the surface from {from} to {to}")]
+    OpenBorder {
+        /// One end of the edge, normalised.
+        from: DVec3,
+        /// The other.
+        to: DVec3,
+    },
+    /// The surface is crossed as often in one sense as in the other.
+    #[error("segments may pass the surface without crossing it")]
+    NotCrossed,
     /// The segment between these corners misses the solid.
     #[error("the segment between corners {a} and {b} misses the solid")]
     MissesSolid {
