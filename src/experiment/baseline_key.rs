@@ -84,4 +84,20 @@ mod tests {
         assert_ne!(here, BaselineKey::here("4.4.0".to_owned(), "avx2"));
         assert!(COMPILER.starts_with("rustc "), "{COMPILER}");
     }
+
+    #[test]
+    fn a_key_of_another_processor_or_without_one_is_foreign() {
+        let here = BaselineKey::here("4.4.0".to_owned(), "avx2");
+        assert_eq!(here.reciprocal.is_empty(), here.arch != "x86_64");
+        let mut written = serde_json::to_value(&here).unwrap();
+        let read = |value: &serde_json::Value| -> BaselineKey {
+            serde_json::from_value(value.clone()).unwrap()
+        };
+        assert_eq!(read(&written), here);
+        written["reciprocal"] = "0123456789abcdef".into();
+        assert_ne!(read(&written), here);
+        // Written by an earlier version.
+        written.as_object_mut().unwrap().remove("reciprocal");
+        assert_eq!(read(&written).reciprocal, "");
+    }
 }

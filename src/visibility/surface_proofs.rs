@@ -6,6 +6,7 @@ use super::nasty_pairs::{Draw, moved};
 use super::nasty_scenes::{
     Triangles, bowl, grid, room, sheet, sphere, spiral_stair, torus, turned,
 };
+use super::surface_pair::SurfacePair;
 use super::{CuttingSurface, ElementBounds, Faults, SceneTree, SurfaceEdges, Tolerance};
 use crate::math::Aabb;
 use glam::{Quat, Vec3};
@@ -298,4 +299,33 @@ fn the_replay_finds_a_border_that_the_engine_forgot() {
         surfaces.replay(&surface, &a, &b),
         Err(OcclusionFlaw::OpenBorder { .. })
     ));
+}
+
+#[test]
+fn a_pair_lies_in_the_plane_of_what_is_coplanar_with_both_ends() {
+    let tolerance = *Surfaces::new(wall(&[])).tree.tolerance();
+    let mut draw = Draw::new(17);
+    for _ in 0..100 {
+        let turn = draw.rotation();
+        let mut tri = |x: f32, height: f32| {
+            [(); 3].map(|()| {
+                let (u, v) = (draw.between(-0.1, 0.1), draw.between(-0.1, 0.1));
+                turn * Vec3::new(x + u, v, height)
+            })
+        };
+        let (a, b) = (tri(-0.3, 0.0), tri(0.3, 0.0));
+        // Large, so that its plane is one.
+        let between = [(-0.4, -0.4), (0.4, -0.4), (0.0, 0.4)];
+        let between = between.map(|(u, v)| turn * Vec3::new(u, v, 0.0));
+        let raised = tri(0.3, 4.0 * tolerance.nesting);
+        let lies = |b: &[Vec3; 3]| {
+            let (a, b) = (
+                ElementBounds::from_polygon(&a),
+                ElementBounds::from_polygon(b),
+            );
+            let pair = SurfacePair::new(&a, &b, &tolerance);
+            pair.lies_in_plane_of(between.map(|c| c.as_dvec3()))
+        };
+        assert!(lies(&b) && !lies(&raised), "{a:?} {b:?} {between:?}");
+    }
 }
