@@ -48,9 +48,10 @@ fuzz:
 			-max_total_time=$(FUZZ_SECONDS) -timeout=20 -verbosity=0 || exit 1; \
 	done
 
-# Tests marked `ignored` take minutes each.
+# Tests marked `ignored` take minutes each; properties are drawn from a seed of the day, and more often.
 check-long: setup
 	cargo test -- --ignored
+	PROPTEST_RNG_SEED=$$(date +%Y%m%d) PROPTEST_CASES=2000 cargo test
 	$(MAKE) readers
 	$(MAKE) report-check
 	$(MAKE) bench-planted
