@@ -90,13 +90,6 @@ impl SurfaceEdges {
             .filter(move |e| e.polygon != edge.polygon.0)
             .map(|e| self.edge(PolygonId(e.polygon), usize::from(e.corner)))
     }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        size_of_val(self.corners.as_slice())
-            + size_of_val(self.vertices.as_slice())
-            + size_of_val(self.by_vertices.as_slice())
-    }
 }
 
 fn ends(vertices: &[u32; 3], corner: usize) -> (u32, u32) {
