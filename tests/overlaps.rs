@@ -119,6 +119,34 @@ fn a_front_covers_the_back_of_a_sheet_that_faces_the_other_way() {
     assert_eq!(judge(&[up, down]), [[false, true], [false, true]]);
 }
 
+/// Height in the file of a sheet that lies `steps` times seven tenths of tau up: neighbours lie on each other, others not.
+fn layer(steps: u8) -> f64 {
+    // The diagonal from the lamp at z = -9 to the far corner of the largest sheets.
+    f64::from(steps) * 0.7e-6 * DVec3::new(9.0, 9.0, 9.0).length()
+}
+
+#[test]
+fn what_lies_on_a_covered_sheet_alone_is_not_covered() {
+    let corner = ([8., 8., 9., 9.], 0., "wall");
+    let sheet = |steps| ([0., 0., 4., 4.], layer(steps), "wall");
+    let lamp = |steps| ([4., 0., 0., 4.], layer(steps), "lamp");
+    let (keeps, gives) = ([false; 2], [true; 2]);
+    let three = [corner, sheet(0), sheet(1), sheet(2)];
+    assert_eq!(judge(&three)[1..], [keeps, gives, keeps]);
+    let five = [corner, sheet(4), sheet(3), sheet(2), sheet(1), sheet(0)];
+    assert_eq!(judge(&five)[1..], [keeps, gives, keeps, gives, keeps]);
+    // The lowest of them has no other below it that could take its light.
+    let lamps = [corner, lamp(3), lamp(2), lamp(1), lamp(0)];
+    assert_eq!(judge(&lamps)[1..], [keeps, gives, keeps, gives]);
+    let scene = scene(&lamps, DQuat::IDENTITY);
+    let warned = |text: &str| scene.warnings.iter().any(|w| w.0.contains(text));
+    assert!(
+        warned("4 polygons of those emit but lie on others that emit too"),
+        "{:?}",
+        scene.warnings
+    );
+}
+
 #[test]
 fn a_lamp_set_into_a_ceiling_shines() {
     let ceiling = ([4., 0., 0., 4.], 0., "wall");
@@ -146,33 +174,39 @@ fn neighbours_and_layers_do_not_overlap() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// On a grid of integers the owned area can be counted cell by cell.
+    /// On a grid of integers the owned area can be counted cell by cell: who comes first owns a cell for all within tau.
     #[test]
     fn covered_area_agrees_with_counting(
-        rectangles in prop::collection::vec((0..6u8, 0..6u8, 1..4u8, 1..4u8), 2..8),
+        rectangles in prop::collection::vec((0..6u8, 0..6u8, 1..4u8, 1..4u8, 0..4u8), 2..8),
+        layered: bool,
         angle in 0.0..6.0f64,
     ) {
-        let bounds: Vec<[u8; 4]> = rectangles.iter().map(|&(x, y, w, h)| [x, y, x + w, y + h]).collect();
+        let steps = |h: u8| if layered { h } else { 0 };
+        let bounds: Vec<[u8; 5]> = rectangles.iter().map(|&(x, y, w, h, z)| [x, y, x + w, y + h, steps(z)]).collect();
         let mut distinct = bounds.clone();
         distinct.sort_unstable();
-        distinct.dedup();
+        distinct.dedup_by_key(|b| [b[0], b[1], b[2], b[3]]);
         // Exact copies are dropped at loading.
         prop_assume!(distinct.len() == bounds.len());
-        let shapes: Vec<_> = bounds.iter().map(|b| (b.map(f64::from), 0.0, "wall")).collect();
+        let mut shapes = vec![([8., 8., 9., 9.], 0., "wall")];
+        shapes.extend(bounds.iter().map(|b| ([b[0], b[1], b[2], b[3]].map(f64::from), layer(b[4]), "wall")));
         let scene = scene(&shapes, DQuat::from_rotation_y(angle));
         let overlaps = find_overlaps(&scene);
-        let inside = |b: &[u8; 4], x: u8, y: u8| (b[0]..b[2]).contains(&x) && (b[1]..b[3]).contains(&y);
-        let found = (1..scene.source_faces).map(|face| {
+        let found = (2..scene.source_faces).map(|face| {
             scene.polygons.iter().enumerate().filter(|(_, p)| p.source_face == face)
                 .all(|(i, _)| overlaps.is_covered(Facet { polygon: PolygonId::new(i), side: Side::Front }))
         });
         let mut double = 0;
+        let mut owners: Vec<Vec<(u8, u8, u8)>> = Vec::new();
         for (k, (b, found)) in bounds.iter().zip(found).enumerate() {
-            let cells = || (b[0]..b[2]).flat_map(|x| (b[1]..b[3]).map(move |y| (x, y)));
-            let taken = cells().filter(|&(x, y)| bounds[..k].iter().any(|o| inside(o, x, y))).count();
-            let whole = taken == cells().count();
-            prop_assert_eq!(whole, found, "rectangle {}", k);
-            double += taken;
+            let cells: Vec<_> = (b[0]..b[2]).flat_map(|x| (b[1]..b[3]).map(move |y| (x, y, b[4]))).collect();
+            let free = |&(x, y, z): &(u8, u8, u8)| {
+                !owners.iter().flatten().any(|&(u, v, w)| (u, v) == (x, y) && w.abs_diff(z) < 2)
+            };
+            let owned: Vec<_> = cells.iter().copied().filter(free).collect();
+            double += cells.len() - owned.len();
+            prop_assert_eq!(owned.is_empty(), found, "rectangle {}", k);
+            owners.push(owned);
         }
         // Area of wholly covered polygons, of which some may belong to faces covered in part.
         let area = |i: usize| scene.polygon_area(PolygonId::new(i));

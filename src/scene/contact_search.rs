@@ -34,10 +34,12 @@ pub(super) fn find_contacts(tree: &PolygonTree, scene: &Scene, overlaps: &Overla
     let mut hiding: Vec<_> = standing.chain(&overlaps.partly).copied().collect();
     hiding.sort_unstable();
     hiding.dedup();
-    let covers: Vec<(SideIndex, [Vec3; 3])> = hiding
+    let mut covers: Vec<(SideIndex, [Vec3; 3])> = hiding
         .into_iter()
         .map(|(side, front)| (side, scene.corners(front)))
+        .chain(overlaps.partly_by_pieces.iter().copied())
         .collect();
+    covers.sort_by_key(|cover| cover.0);
     Contacts::new(2 * scene.polygons.len(), &covers, tau)
 }
 

@@ -36,12 +36,12 @@ pub(super) fn clip(polygon: &[DVec2], normal: DVec2, offset: f64, out: &mut Vec<
     }
 }
 
-/// Splits `polygon` by the sides of `cutter`: what lies inside, and convex pieces of what lies outside.
-pub(super) fn split(polygon: &[DVec2], cutter: &[DVec2; 3]) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
+/// Splits `polygon` by the sides of the convex `cutter`: what lies inside, and convex pieces of what lies outside.
+pub(super) fn split(polygon: &[DVec2], cutter: &[DVec2]) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
     let mut inside = polygon.to_vec();
     let mut outside = Vec::new();
-    for i in 0..3 {
-        let (from, to) = (cutter[i], cutter[(i + 1) % 3]);
+    for i in 0..cutter.len() {
+        let (from, to) = (cutter[i], cutter[(i + 1) % cutter.len()]);
         let inwards = (to - from).perp();
         let offset = inwards.dot(from);
         let mut beyond = Vec::with_capacity(inside.len() + 1);

@@ -12,6 +12,17 @@ pub enum Side {
     Back,
 }
 
+impl Side {
+    /// The side that looks the other way.
+    #[must_use]
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Front => Self::Back,
+            Self::Back => Self::Front,
+        }
+    }
+}
+
 /// One side of a polygon that receives and reflects light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Facet {

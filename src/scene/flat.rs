@@ -51,8 +51,14 @@ impl Flat {
         Some(flat)
     }
 
-    fn project(&self, p: DVec3) -> DVec2 {
+    /// Where `p` lies in the plane, seen along the normal.
+    pub fn project(&self, p: DVec3) -> DVec2 {
         DVec2::new(self.u.dot(p - self.origin), self.v.dot(p - self.origin))
+    }
+
+    /// The point of space at `p` in the plane.
+    pub fn lift(&self, p: DVec2) -> DVec3 {
+        self.origin + self.u * p.x + self.v * p.y
     }
 
     fn turn(&self, [a, b, c]: &[DVec2; 3]) -> f64 {
@@ -80,7 +86,7 @@ impl Flat {
                     && self
                         .corners
                         .iter()
-                        .all(|p| its.height(self.origin + self.u * p.x + self.v * p.y) <= tau)
+                        .all(|&p| its.height(self.lift(p)) <= tau)
             };
         if !within {
             return None;

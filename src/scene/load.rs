@@ -202,6 +202,10 @@ fn warn_of_overlaps(scene: &mut Scene, overlaps: &Overlaps) {
             .into(),
     );
     warn(
+        overlaps.covered_lamps,
+        "of those emit but lie on others that emit too; the first in the file shines for them, by its own Ke".into(),
+    );
+    warn(
         overlaps.partly_covered_fronts,
         format!(
             "lie partly on others in one plane, facing the same way; they receive no light of their own on {:.2e} of the area",

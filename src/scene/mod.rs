@@ -13,6 +13,7 @@ mod file_box;
 mod flat;
 mod foreign_file;
 pub mod generate;
+mod layers;
 mod load;
 mod material;
 mod model;
@@ -33,6 +34,7 @@ mod texture;
 mod texture_footprint;
 mod texture_map;
 mod triangulate;
+mod uncovered;
 
 pub use config::{Axes, CLAMPED_REFLECTANCE, LoadConfig};
 pub use contacts::Contacts;

@@ -4,18 +4,16 @@
 //! Of two sides the emitting one comes first (a lamp set into a ceiling must shine), then a front
 //! before a back, then the lower index.
 
-use super::convex::{area, perimeter, split};
 use super::facet::{Facet, Side};
 use super::flat::{Flat, are_apart};
+use super::layers::own_layers;
 use super::model::Scene;
 use super::polygon_tree::{MOST_VISITS, PolygonTree};
 use super::side_graph::{SideIndex, side_index};
+use super::uncovered::{Covered, Rest};
 use crate::math::{Aabb, PolygonId};
-use glam::DVec2;
+use glam::Vec3;
 use rayon::prelude::*;
-
-/// Pieces into which the uncovered rest of a polygon may fall before it counts as partly covered.
-const MOST_PIECES: usize = 256;
 
 /// What lies on what.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,6 +22,8 @@ pub struct Overlaps {
     covered: Vec<bool>,
     /// Polygons whose front is wholly covered.
     pub covered_fronts: usize,
+    /// Those of them that emit: another that emits lies there, and shines for both.
+    pub covered_lamps: usize,
     /// Polygons whose front is covered in part.
     pub partly_covered_fronts: usize,
     /// Area of those parts over the area of all polygons.
@@ -32,6 +32,8 @@ pub struct Overlaps {
     pub unchecked: usize,
     /// Sides covered in part, each with a polygon that covers some of it, sorted.
     pub(super) partly: Vec<(SideIndex, PolygonId)>,
+    /// Likewise with triangles, of sides that are covered by parts of polygons; sorted by side.
+    pub(super) partly_by_pieces: Vec<(SideIndex, [Vec3; 3])>,
     /// Sides against which the fronts of others lie within tau, each with one of those, sorted. None of polygons whose
     /// search was given up.
     pub(super) against: Vec<(SideIndex, PolygonId)>,
@@ -46,23 +48,32 @@ impl Overlaps {
 
 /// What is found about one polygon.
 #[derive(Default)]
-struct Cover {
-    front: Covered,
-    back: Covered,
-    /// Sides, and the polygons that own parts of them.
-    owners: Vec<(Side, PolygonId)>,
+pub(super) struct Cover {
+    /// How much of its front and of its back others have.
+    pub sides: [Covered; 2],
+    /// All that come before its sides and lie on them, by polygon.
+    pub cuts: Vec<Cut>,
+    /// Triangles that own parts of its sides, where not whole polygons do.
+    pub pieces: Vec<(Side, [Vec3; 3])>,
     /// Sides, and the polygons whose fronts lie against them.
     against: Vec<(Side, PolygonId)>,
     gave_up: bool,
 }
 
-#[derive(Clone, Copy, Default, PartialEq)]
-enum Covered {
-    #[default]
-    No,
-    /// With the covered area.
-    Partly(f64),
-    Wholly,
+/// A side that comes before another and lies on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cut {
+    /// Which side it lies on.
+    pub on: Side,
+    pub by: Facet,
+    /// Whether it takes what those before it in the list have left.
+    pub takes: bool,
+}
+
+impl Cover {
+    pub fn of(&self, side: Side) -> Covered {
+        self.sides[usize::from(side == Side::Back)]
+    }
 }
 
 /// Finds the sides of `scene` that lie within tau of each other and face the same way.
@@ -73,10 +84,11 @@ pub fn find_overlaps(scene: &Scene) -> Overlaps {
 /// The same by the tree of the scene's polygons.
 pub(super) fn find_overlaps_by(tree: &PolygonTree, scene: &Scene) -> Overlaps {
     let tau = scene.tau();
-    let covers: Vec<Cover> = (0..scene.polygons.len())
+    let mut covers: Vec<Cover> = (0..scene.polygons.len())
         .into_par_iter()
         .map(|i| cover_of(scene, tree, tau, PolygonId::new(i)))
         .collect();
+    own_layers(scene, tau, &mut covers);
     let mut overlaps = Overlaps {
         covered: Vec::with_capacity(2 * covers.len()),
         ..Overlaps::default()
@@ -84,25 +96,30 @@ pub(super) fn find_overlaps_by(tree: &PolygonTree, scene: &Scene) -> Overlaps {
     let mut double = 0.0;
     for (i, cover) in covers.into_iter().enumerate() {
         let id = PolygonId::new(i);
-        for (side, owner) in cover.owners {
-            let whole = match side {
-                Side::Front => cover.front,
-                Side::Back => cover.back,
-            };
-            if whole != Covered::Wholly {
-                overlaps.partly.push((side_index(id, side), owner));
+        for cut in cover.cuts.iter().filter(|cut| cut.takes) {
+            if cover.of(cut.on) != Covered::Wholly {
+                let side = side_index(id, cut.on);
+                overlaps.partly.push((side, cut.by.polygon));
             }
         }
+        let pieces = cover.pieces.into_iter();
+        overlaps
+            .partly_by_pieces
+            .extend(pieces.map(|(side, piece)| (side_index(id, side), piece)));
         let against = cover.against.into_iter().filter(|_| !cover.gave_up);
         overlaps
             .against
             .extend(against.map(|(side, front)| (side_index(id, side), front)));
-        overlaps.covered.push(cover.front == Covered::Wholly);
-        overlaps.covered.push(cover.back == Covered::Wholly);
+        let [front, back] = cover.sides;
+        overlaps.covered.push(front == Covered::Wholly);
+        overlaps.covered.push(back == Covered::Wholly);
         overlaps.unchecked += usize::from(cover.gave_up);
-        match cover.front {
+        match front {
             Covered::No => {}
-            Covered::Wholly => overlaps.covered_fronts += 1,
+            Covered::Wholly => {
+                overlaps.covered_fronts += 1;
+                overlaps.covered_lamps += usize::from(emits(scene, id));
+            }
             Covered::Partly(area) => {
                 overlaps.partly_covered_fronts += 1;
                 double += area;
@@ -110,6 +127,7 @@ pub(super) fn find_overlaps_by(tree: &PolygonTree, scene: &Scene) -> Overlaps {
         }
     }
     overlaps.partly.sort_unstable();
+    overlaps.partly_by_pieces.sort_by_key(|piece| piece.0);
     overlaps.against.sort_unstable();
     let whole: f64 = (0..scene.polygons.len())
         .map(|i| scene.polygon_area(PolygonId::new(i)))
@@ -132,8 +150,7 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
         }
     });
     nearby.sort_unstable();
-    let mut front = Rest::new(&own, tau);
-    let mut back = Rest::new(&own, tau);
+    let mut rests = [Rest::new(&own, tau), Rest::new(&own, tau)];
     for other in nearby {
         let Some(lying) = own.coplanar(scene, other, tau) else {
             continue;
@@ -141,89 +158,42 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
         if are_apart(&own.corners, &lying.corners, tau) {
             continue;
         }
-        let first =
-            |side, other_side| precedence(scene, other, other_side) < precedence(scene, id, side);
-        let [on_front, on_back] = if lying.same_way {
-            [Side::Front, Side::Back]
-        } else {
-            [Side::Back, Side::Front]
-        };
         let facing_it = if lying.same_way {
             Side::Back
         } else {
             Side::Front
         };
         cover.against.push((facing_it, other));
-        if first(Side::Front, on_front) && front.subtract(&lying.corners) {
-            cover.owners.push((Side::Front, other));
-        }
-        if first(Side::Back, on_back) && back.subtract(&lying.corners) {
-            cover.owners.push((Side::Back, other));
+        for (on, rest) in [Side::Front, Side::Back].into_iter().zip(&mut rests) {
+            let by = Facet {
+                polygon: other,
+                side: if lying.same_way { on } else { on.other() },
+            };
+            if precedence(scene, by)
+                < precedence(
+                    scene,
+                    Facet {
+                        polygon: id,
+                        side: on,
+                    },
+                )
+            {
+                let takes = rest.subtract(&lying.corners);
+                cover.cuts.push(Cut { on, by, takes });
+            }
         }
     }
-    cover.front = front.judge();
-    cover.back = back.judge();
+    cover.sides = rests.map(|rest| rest.judge());
     cover
 }
 
 /// Which of two sides owns what they share: the lesser.
-fn precedence(scene: &Scene, polygon: PolygonId, side: Side) -> (bool, Side, PolygonId) {
-    let dark = side == Side::Back || scene.surface(polygon).emission == [0.0; 3];
+pub(super) fn precedence(scene: &Scene, facet: Facet) -> (bool, Side, PolygonId) {
+    let Facet { polygon, side } = facet;
+    let dark = side == Side::Back || !emits(scene, polygon);
     (dark, side, polygon)
 }
 
-/// What is left of a side after others have taken their parts.
-struct Rest {
-    pieces: Vec<Vec<DVec2>>,
-    whole: f64,
-    /// Strips narrower than twice this are the rounding of shared edges.
-    width: f64,
-    too_many: bool,
-}
-
-impl Rest {
-    fn new(own: &Flat, tau: f32) -> Self {
-        Self {
-            pieces: vec![own.corners.to_vec()],
-            whole: area(&own.corners),
-            width: f64::from(tau),
-            too_many: false,
-        }
-    }
-
-    /// Takes `cutter` away; false where it takes nothing more.
-    fn subtract(&mut self, cutter: &[DVec2; 3]) -> bool {
-        if self.too_many
-            || !self
-                .pieces
-                .iter()
-                .any(|p| self.matters(&split(p, cutter).0))
-        {
-            return false;
-        }
-        let mut left = Vec::new();
-        for piece in &self.pieces {
-            let (_, outside) = split(piece, cutter);
-            left.extend(outside.into_iter().filter(|p| self.matters(p)));
-        }
-        self.pieces = left;
-        self.too_many = self.pieces.len() > MOST_PIECES;
-        true
-    }
-
-    /// Whether a part is more than a strip along an edge.
-    fn matters(&self, piece: &[DVec2]) -> bool {
-        area(piece) > self.width * perimeter(piece)
-    }
-
-    fn judge(&self) -> Covered {
-        let left: f64 = self.pieces.iter().map(|p| area(p)).sum();
-        if self.pieces.is_empty() {
-            Covered::Wholly
-        } else if left < self.whole * (1.0 - 1e-9) {
-            Covered::Partly(self.whole - left)
-        } else {
-            Covered::No
-        }
-    }
+fn emits(scene: &Scene, polygon: PolygonId) -> bool {
+    scene.surface(polygon).emission != [0.0; 3]
 }

@@ -29,6 +29,13 @@ fn wall(z: f64, cells: [usize; 2]) -> Mesh {
     )
 }
 
+/// Walls of several cuts, each within tau of the next (the room's is 3.5e-6), the first beyond it of the last.
+fn layers(order: [usize; 5]) -> Mesh {
+    order.into_iter().fold(Mesh::default(), |mesh, k| {
+        mesh.with(wall(2.5e-6 * k as f64, [k + 1, 3]))
+    })
+}
+
 fn turned(mesh: Mesh) -> Mesh {
     // Half a turn about the upright axis: what looked to +z looks to -z.
     mesh.mapped(|p| v(-p.x, p.y, -p.z))
@@ -54,6 +61,9 @@ fn polygons_on_and_through_each_other() {
             "a rounding error apart",
             wall(0.0, [2, 2]).with(wall(1.0e-7, [3, 3])),
         ),
+        ("five layers, the lowest first", layers([0, 1, 2, 3, 4])),
+        ("five layers, the highest first", layers([4, 3, 2, 1, 0])),
+        ("five layers, shuffled", layers([3, 0, 4, 1, 2])),
         (
             "back to back",
             wall(0.0, [2, 3]).with(turned(wall(0.0, [3, 2]))),
