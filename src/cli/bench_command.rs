@@ -96,7 +96,8 @@ fn read_baseline(path: &Path) -> Result<Baseline, CliError> {
             path.display()
         ))
     };
-    let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
+    let bytes = std::fs::read(path)
+        .map_err(|e| CliError::Argument(format!("{}: cannot be read: {e}", path.display())))?;
     serde_json::from_slice(&bytes).map_err(|e| fail(e.to_string()))
 }
 

@@ -2,6 +2,7 @@
 //! nothing is being written.
 
 use super::error::CliError;
+use super::logs;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -12,6 +13,22 @@ pub struct Interrupt {
     /// Raised by the work while there is nothing to clean up.
     pub idle: Arc<AtomicBool>,
 }
+
+/// Lets writes beyond a limit on file sizes (`ulimit -f`) fail, so that they are reported and undone. Where the system
+/// does not let us, they end the program as before.
+#[cfg(unix)]
+pub fn survive_size_limits() {
+    let noticed = Arc::default();
+    if let Err(error) = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, noticed) {
+        logs::warn(format_args!(
+            "a limit on file sizes would end the program: {error}"
+        ));
+    }
+}
+
+/// Elsewhere there are none.
+#[cfg(not(unix))]
+pub fn survive_size_limits() {}
 
 /// Installs the handler.
 pub fn install() -> Result<Interrupt, CliError> {

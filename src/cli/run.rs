@@ -36,6 +36,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         logs::warn(format_args!("{warning}"));
     }
     let rest = arguments.iter().skip(1);
+    interrupt::survive_size_limits();
     let interrupt = interrupt::install()?;
     let session = Session {
         quiet: cli.quiet,

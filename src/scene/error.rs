@@ -7,6 +7,9 @@ use thiserror::Error;
 /// Greatest `Ke`: its radiosity pi Ke stays in f32 (3.4e38) after reflections worth a factor of 1e4.
 pub const MAX_EMISSION: f64 = 1.0e34;
 
+/// Least `Ke` of a scene's brightest surface: a hundredth of a millionth of it still is a normal number in f32 (1.2e-38).
+pub const MIN_EMISSION: f64 = 1.0e-30;
+
 /// Largest number of vertices, texture coordinates, faces or polygons in a scene: both sides of
 /// every polygon must be countable in 32 bits.
 pub const MAX_ELEMENTS: usize = 1 << 31;
@@ -101,6 +104,12 @@ pub enum Reason {
         /// The values.
         value: [f64; 3],
     },
+    /// A scene too dark for results to hold its light.
+    #[error(
+        "the brightest surface emits {0:e}, less than {MIN_EMISSION:e}: results in f32 would lose its light (choose another \
+         unit for Ke)"
+    )]
+    EmissionTooLow(f64),
     /// A reflectance of one or more, with which light would never die out.
     #[error(
         "material `{material}`: Kd {}{} reflects all light or more; every channel must be below 1 \
@@ -154,7 +163,7 @@ pub enum Reason {
     },
     /// Coordinates that f64 cannot be trusted with.
     #[error(
-        "the vertices span {0:e} units: lengths must lie between 1e-100 and 1e100 for areas to be computable"
+        "the vertices span {0:e} units: lengths must lie between 1e-60 and 1e60 for areas and their squares to be computable"
     )]
     SpanOutOfRange(f64),
     /// More elements than 32-bit ids can name.

@@ -3,15 +3,15 @@
 use super::error::Reason;
 use glam::DVec3;
 
-/// Spans within which neither areas (squares) nor their sums leave the range of f64, whose
-/// exponents reach to about +-308; three orders of square stay free.
-const SPAN_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+/// Spans within which neither squares of areas nor their sums leave the range of f64, whose exponents reach to about
+/// +-308: an area is at least 1e-15 of the span's square, so its own square is above 1e-270.
+const SPAN_RANGE: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// The bounding box of a file's vertices, in its units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FileBox {
     pub centre: DVec3,
-    /// Its greatest extent: normal, positive, and f64 holds its square.
+    /// Its greatest extent: normal, positive, and f64 holds its fourth power.
     pub span: f64,
 }
 
@@ -19,7 +19,7 @@ impl FileBox {
     /// The box of `positions`.
     ///
     /// # Errors
-    /// If it has no extent, or one that f64 cannot square.
+    /// If it has no extent, or one in which f64 cannot square areas.
     pub fn around(positions: &[DVec3]) -> Result<Self, Reason> {
         let (centre, span) = centre_and_span(positions.iter().copied());
         if !SPAN_RANGE.contains(&span) {
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn absurd_spans_are_refused() {
-        for side in [0.0, 1e-120, 1e120, f64::MAX] {
+        for side in [0.0, 1e-61, 1e61, f64::MAX] {
             assert!(FileBox::around(&[DVec3::splat(-side), DVec3::splat(side)]).is_err());
         }
     }

@@ -5,7 +5,7 @@ use super::assets::Assets;
 use super::config::{Axes, LoadConfig};
 use super::contact_search::find_contacts;
 use super::contacts::Contacts;
-use super::error::{Defect, DefectLog, LoadError, MAX_ELEMENTS, Reason};
+use super::error::{Defect, DefectLog, LoadError, MAX_ELEMENTS, MIN_EMISSION, Reason};
 use super::file_box::FileBox;
 use super::material::{Materials, check_materials, describe, resolve_materials};
 use super::model::{Normalisation, Polygon, Scene, SceneWarning};
@@ -137,7 +137,13 @@ fn load(
         materials: &materials.list,
     };
     let surfaces = assign_surfaces(&canvas, assets, config, &mut defects, &mut warnings);
-    if surfaces.list.iter().all(|s| s.emission == [0.0; 3]) {
+    let brightest = (surfaces.list.iter())
+        .flat_map(|s| s.emission)
+        .fold(0.0, f64::max);
+    if brightest > 0.0 && brightest < MIN_EMISSION {
+        DefectLog::new(name, &mut defects).add(None, Reason::EmissionTooLow(brightest));
+    }
+    if brightest == 0.0 {
         let Materials {
             missing_libraries,
             names_library,
@@ -320,7 +326,10 @@ fn warn_of_dropped(pieces: &Pieces, scan: &ObjScan, name: &str, warnings: &mut V
             warnings.push(SceneWarning(format!("{name}:{line}: {faces} {what}")));
         }
     };
-    warn(pieces.without_area, "without area, dropped");
+    warn(
+        pieces.without_area,
+        "without area (or that crosses itself so that its parts cancel), dropped",
+    );
     warn(
         pieces.collapsed,
         "too small beside the scene for single precision, dropped",

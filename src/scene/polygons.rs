@@ -51,6 +51,10 @@ pub(super) fn cut_faces(mesh: &RawMesh, map: &Normalisation, rounded: &[Vec3]) -
     let welded = weld_exact(rounded);
     let vertex = |corner: u32| mesh.corners[corner as usize];
     let exact = |corner: u32| map.place(mesh.positions[vertex(corner) as usize]);
+    let shape = |corners: [u32; 3]| {
+        let rounded = corners.map(|c| rounded[vertex(c) as usize]);
+        shape_of(corners.map(exact), rounded)
+    };
     let mut out = Pieces::default();
     let copies = copied_polygons(mesh, &welded);
     let mut triangulator = Triangulator::new();
@@ -68,7 +72,9 @@ pub(super) fn cut_faces(mesh: &RawMesh, map: &Normalisation, rounded: &[Vec3]) -
         if ring.len() < 3 {
             // Corners that coincide in f32 only are a matter of size, not of shape.
             let range = mesh.corner_range(face);
-            if range.len() == 3 && collapses(range.start as u32, &exact, rounded, &vertex) {
+            let first = range.start as u32;
+            let fan = (1..range.len().max(2) as u32 - 1).map(|i| [first, first + i, first + i + 1]);
+            if fan.into_iter().any(|c| shape(c) == Shape::Collapsed) {
                 *fate = Fate::Collapsed;
             }
         } else {
@@ -80,11 +86,7 @@ pub(super) fn cut_faces(mesh: &RawMesh, map: &Normalisation, rounded: &[Vec3]) -
             }
             for triangle in cut.triangles {
                 let corners = triangle.map(|i| ring[i as usize]);
-                let shape = shape_of(
-                    corners.map(exact),
-                    corners.map(|c| rounded[vertex(c) as usize]),
-                );
-                match shape {
+                match shape(corners) {
                     Shape::Sound => {
                         *fate = Fate::Kept;
                         out.kept.push(Piece { corners, face: id });
@@ -116,19 +118,6 @@ enum Fate {
     Duplicate,
     Collapsed,
     WithoutArea,
-}
-
-fn collapses(
-    first: u32,
-    exact: &impl Fn(u32) -> DVec3,
-    rounded: &[Vec3],
-    vertex: &impl Fn(u32) -> u32,
-) -> bool {
-    let corners = [first, first + 1, first + 2];
-    shape_of(
-        corners.map(exact),
-        corners.map(|c| rounded[vertex(c) as usize]),
-    ) == Shape::Collapsed
 }
 
 /// The corners of a face without those that repeat their predecessor's place.

@@ -80,6 +80,8 @@ fn materials_that_no_light_can_live_with() {
         ("Kd 0.5 0.5 0.5", "Ke -1 0 0", ["scene.mtl:5", "negative"]),
         ("Kd 0.5 0.5 0.5", "Ke inf 0 0", ["scene.mtl:5", "inf"]),
         ("Kd 0.5 0.5 0.5", "Ke 0 0 0", ["emit", "scene.obj"]),
+        ("Kd 0.5 0.5 0.5", "Ke 1e-40 0 9e-31", ["9e-31", "1e-30"]),
+        ("Kd 0.5 0.5 0.5", "Ke 1 1 2e34", ["scene.mtl:5", "1e34"]),
         ("Kd 1 1 1", "Ke 10 10 10", ["wall", "--clamp-reflectance"]),
     ] {
         folder.write("scene.obj", ROOM[0].replace("room.mtl", "scene.mtl"));
@@ -91,6 +93,55 @@ fn materials_that_no_light_can_live_with() {
     }
     folder.write("scene.obj", ROOM[0].replace("room.mtl", "missing.mtl"));
     refused(&folder, "scene.obj", &["missing.mtl", "emit"]);
+}
+
+/// The room's vertices `factor` times as far from the origin.
+fn scaled(factor: &str) -> String {
+    let line = |l: &str| match l.strip_prefix("v ") {
+        Some(rest) => {
+            let numbers = rest.split(' ').map(|x| format!("{x}{factor}"));
+            format!("v {}\n", numbers.collect::<Vec<_>>().join(" "))
+        }
+        None => format!("{l}\n"),
+    };
+    ROOM[0].lines().map(line).collect()
+}
+
+#[test]
+fn units_in_which_areas_have_no_squares() {
+    let folder = Folder::new();
+    write_room(&folder);
+    for factor in ["e-62", "e61", "e-100", "e200"] {
+        folder.write("huge.obj", scaled(factor));
+        refused(&folder, "huge.obj", &["huge.obj", "1e-60 and 1e60"]);
+    }
+    // What is allowed gives the same picture, and the same reference.
+    let mut pictures = Vec::new();
+    for factor in ["e0", "e-60", "e59"] {
+        folder.write("room.obj", scaled(factor));
+        for line in [
+            format!("solve room.obj --out results {COARSE}"),
+            "view results --out view.png --size 64x48".to_owned(),
+            "reference room.obj --out ref.json --error 0.5 --max-seconds 1".to_owned(),
+        ] {
+            folder.line(&line).ends_with(0, factor);
+        }
+        pictures.push(fs::read(folder.path("view.png")).unwrap());
+    }
+    assert!(pictures[0] == pictures[1] && pictures[0] == pictures[2]);
+}
+
+#[test]
+fn a_room_without_a_size_beside_what_lies_far_off() {
+    let folder = Folder::new();
+    write_room(&folder);
+    let far = "v 1e10 1e10 1e10\nv 10000000001 1e10 1e10\nv 1e10 10000000001 1e10\nf -1 -2 -3\n";
+    folder.write("far.obj", ROOM[0].to_owned() + far);
+    refused(
+        &folder,
+        "far.obj",
+        &["far.obj:", "collapse in single precision"],
+    );
 }
 
 #[test]
