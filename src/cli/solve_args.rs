@@ -104,7 +104,7 @@ pub enum TechniqueArg {
     Visibility,
     /// Nor where one large occluder is proved to cut every segment.
     Occlusion,
-    /// As occlusion; and where little is left in a shaft, that little is tested natively.
+    /// As occlusion; and where little is left in a shaft, that little is tested natively, as are single rays against rectangles that blocked those before.
     Blockers,
     /// Everything sees everything: measures what visibility costs.
     Unoccluded,

@@ -283,3 +283,20 @@ impl Drop for Geometry {
         unsafe { sys::rtcReleaseGeometry(self.0) };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::embree::DeviceConfig;
+
+    #[test]
+    fn scenes_outlive_their_device() {
+        let device = Device::open(&DeviceConfig::default()).unwrap();
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let scene = CommittedScene::build(&device, &corners, &[[0, 1, 2]]).unwrap();
+        drop(device);
+        let above = Vec3::new(0.2, 0.2, 1.0);
+        assert!(scene.occluded1(&Ray::half_line(above, Vec3::NEG_Z, 0.0)));
+        assert!(!scene.occluded1(&Ray::half_line(above, Vec3::Z, 0.0)));
+    }
+}

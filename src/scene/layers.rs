@@ -5,10 +5,10 @@
 //! overlap lie within tau of each other it comes to the same, and nothing is done here.
 
 use super::convex::area;
+use super::cover::{Cover, Cut, precedence};
 use super::facet::{Facet, Side};
 use super::flat::{Flat, are_apart};
 use super::model::Scene;
-use super::overlap::{Cover, Cut, precedence};
 use super::uncovered::{Covered, Rest};
 use crate::math::PolygonId;
 use glam::{DVec2, DVec3, Vec3};

@@ -6,6 +6,7 @@ mod contact_search;
 mod contacts;
 mod convex;
 mod corner_indices;
+mod cover;
 mod degenerate;
 mod error;
 mod facet;

@@ -4,6 +4,7 @@
 //! Of two sides the emitting one comes first (a lamp set into a ceiling must shine), then a front
 //! before a back, then the lower index.
 
+use super::cover::{Cover, Cut, emits, precedence};
 use super::facet::{Facet, Side};
 use super::flat::{Flat, are_apart};
 use super::layers::own_layers;
@@ -43,36 +44,6 @@ impl Overlaps {
     /// Whether other sides own the whole of this one.
     pub fn is_covered(&self, facet: Facet) -> bool {
         self.covered[side_index(facet.polygon, facet.side) as usize]
-    }
-}
-
-/// What is found about one polygon.
-#[derive(Default)]
-pub(super) struct Cover {
-    /// How much of its front and of its back others have.
-    pub sides: [Covered; 2],
-    /// All that come before its sides and lie on them, by polygon.
-    pub cuts: Vec<Cut>,
-    /// Triangles that own parts of its sides, where not whole polygons do.
-    pub pieces: Vec<(Side, [Vec3; 3])>,
-    /// Sides, and the polygons whose fronts lie against them.
-    against: Vec<(Side, PolygonId)>,
-    gave_up: bool,
-}
-
-/// A side that comes before another and lies on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cut {
-    /// Which side it lies on.
-    pub on: Side,
-    pub by: Facet,
-    /// Whether it takes what those before it in the list have left.
-    pub takes: bool,
-}
-
-impl Cover {
-    pub fn of(&self, side: Side) -> Covered {
-        self.sides[usize::from(side == Side::Back)]
     }
 }
 
@@ -185,15 +156,4 @@ fn cover_of(scene: &Scene, tree: &PolygonTree, tau: f32, id: PolygonId) -> Cover
     }
     cover.sides = rests.map(|rest| rest.judge());
     cover
-}
-
-/// Which of two sides owns what they share: the lesser.
-pub(super) fn precedence(scene: &Scene, facet: Facet) -> (bool, Side, PolygonId) {
-    let Facet { polygon, side } = facet;
-    let dark = side == Side::Back || !emits(scene, polygon);
-    (dark, side, polygon)
-}
-
-fn emits(scene: &Scene, polygon: PolygonId) -> bool {
-    scene.surface(polygon).emission != [0.0; 3]
 }

@@ -52,10 +52,11 @@ impl ClaimCheck {
     }
 
     /// Judges the segments of one exchange that were tested natively, where Embree says otherwise. `cast` holds the same
-    /// segments in the same order.
+    /// segments in the same order; `answered` of them were not left to Embree in the first place.
     pub fn judge_native(
         &mut self,
         scene: &SceneTree,
+        answered: u32,
         native: &[(Vec3, Vec3, bool)],
         cast: &[(Vec3, Vec3, bool)],
     ) {
@@ -64,7 +65,7 @@ impl ClaimCheck {
             native.iter().map(ends).eq(cast.iter().map(ends)),
             "the same samples are tested twice"
         );
-        self.native_rays += native.len() as u64;
+        self.native_rays += u64::from(answered);
         for (&(from, to, blocked), _) in native
             .iter()
             .zip(cast)

@@ -12,9 +12,7 @@ use super::queries::{Evidence, Occasion, Queries};
 use super::task::{Task, packets_of_exchange};
 use super::uneven_source;
 use crate::math::hash_u64;
-use crate::visibility::{
-    AllClear, LEAST_COSINE, PartVisibility, SampledLight, SampledVisibility, Verdict,
-};
+use crate::visibility::{AllClear, LEAST_COSINE, PartVisibility, SampledLight, Verdict};
 
 /// One in how many exchanges whose first samples agree, and that would have been split had they not, is measured by
 /// a second set: what the second set adds counts for the others too, so that the mean is that of the second set.
@@ -205,50 +203,6 @@ impl<const C: usize> Task<'_, '_, C> {
         self.outcome.blocked.offer(key, pair, &[]);
     }
 
-    /// Casts an exchange's samples: natively against a short list of polygons, else through Embree.
-    fn sample_where_cheapest(
-        &mut self,
-        source: &Source,
-        target: Target,
-        known: Known,
-        round: u64,
-    ) -> SampledVisibility {
-        let rays = self.pass.config.rays;
-        if self.pass.config.technique == Technique::Blockers {
-            let checks = self.pass.config.check_claims;
-            let list = self
-                .prover
-                .as_mut()
-                .and_then(|p| p.blockers(known.knowledge));
-            if let Some(list) = list {
-                let sampled = if checks {
-                    let test = Recording {
-                        test: list,
-                        segments: &mut self.segments,
-                    };
-                    self.pass.sample(test, source, target, rays, round)
-                } else {
-                    self.pass.sample(list, source, target, rays, round)
-                };
-                if checks {
-                    self.check_native(source, target.element, round);
-                }
-                let statistics = &mut self.outcome.statistics;
-                statistics.native_rays += u64::from(sampled.rays);
-                statistics.native_rays_blocked += u64::from(sampled.rays_blocked);
-                if let Some(prover) = &mut self.prover {
-                    prover.book_native(packets_of_exchange(rays));
-                }
-                return sampled;
-            }
-        }
-        let sampled = self
-            .pass
-            .sample(self.pass.context.embree, source, target, rays, round);
-        self.count_rays(target.element, &sampled);
-        sampled
-    }
-
     /// Visibility of a pair that is proved visible: 1, unless samples lie below what stands on an end, where a
     /// technique without proofs finds no light either. `None` where it would split the pair.
     fn visible_share(
@@ -284,25 +238,6 @@ impl<const C: usize> Task<'_, '_, C> {
             return Some(measured(first.visibility, look(1).visibility));
         }
         Some(first.visibility)
-    }
-
-    /// Casts the rays of an exchange that was tested natively, and judges those that disagree.
-    fn check_native(&mut self, source: &Source, receiver: &Element, round: u64) {
-        let mut native = std::mem::take(&mut self.segments);
-        let mut cast = Vec::with_capacity(native.len());
-        let test = Recording {
-            test: self.pass.context.embree,
-            segments: &mut cast,
-        };
-        let rays = self.pass.config.rays;
-        self.pass
-            .sample(test, source, Target::whole(receiver), rays, round);
-        if let Some(guarantees) = self.pass.context.guarantees {
-            let check = &mut self.outcome.check;
-            check.judge_native(&guarantees.scene, &native, &cast);
-        }
-        native.clear();
-        self.segments = native;
     }
 
     /// Casts the rays that a claim saves, and judges those that disagree.

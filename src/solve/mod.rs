@@ -52,6 +52,7 @@ mod query_schedule;
 #[cfg(test)]
 mod query_schedule_tests;
 mod radiosity;
+mod ray_sampling;
 mod receiver_spread;
 #[cfg(test)]
 mod roulette_tests;

@@ -13,8 +13,8 @@ use super::query_schedule::QuerySchedule;
 use super::statistics::PassStatistics;
 use crate::math::Aabb;
 use crate::visibility::{
-    BlockerList, ElementBounds, NearbyBoxes, OcclusionScratch, SurfaceQuery, SurfaceScratch,
-    SurvivorList, Verdict, VisibilityQuery, VisibilityScratch,
+    AirBetween, BlockerList, ElementBounds, NearbyBoxes, OcclusionScratch, SurfaceQuery,
+    SurfaceScratch, SurvivorList, Verdict, VisibilityQuery, VisibilityScratch,
 };
 
 /// A list of what may block, and its polygons prepared for segments.
@@ -118,6 +118,12 @@ impl<'a> Prover<'a> {
     /// Whether a box of air holds the pair that [`Self::may_find_air`] let pass: then it is proved visible.
     pub fn finds_air(&self, source: &Element, receiver: &Element) -> bool {
         self.boxes.hold(source.bounds, receiver.bounds)
+    }
+
+    /// The boxes of air that reach to both ends of a pair.
+    #[inline]
+    pub fn air_between(&self, source: &Element, receiver: &Element) -> Option<AirBetween<'_>> {
+        self.boxes.between(source.bounds, receiver.bounds)
     }
 
     /// Whether a pair that is about to be split may be asked about, of which nothing was known; `is_played` if it has won

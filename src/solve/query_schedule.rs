@@ -8,7 +8,7 @@
 use super::config::Technique;
 use super::queries::{Evidence, Occasion, Queries};
 use super::query_record::QueryRecord;
-use crate::visibility::WalkLimits;
+use crate::visibility::{Account, WalkLimits};
 
 /// Parts of a query's cost, in packets of eight rays: what every query costs, a node or full test of the occluders,
 /// and a node or leaf of the scene with its polygons. Measured on d, e and f at the fixed stride (`bench/runs/`, compare).
@@ -32,11 +32,6 @@ const STRIDE_FACTOR: f32 = 2.0;
 /// costs some hundred instructions, in a walk of two thousand a pair.
 const VAIN_BEFORE_REST: u32 = 8;
 const MOST_REST: u32 = 15;
-/// Packets spent on one kind of query from which what it saved says whether to go on: fewer say too little, and cost too
-/// little.
-const TELLING: f64 = 1_000.0;
-/// Least packets saved for each that was spent: below it a kind of query is left to the first tasks of a pass.
-const LEAST_SAVED: f64 = 1.25;
 /// What proofs of occlusion save of the packets that come below pairs of the same size that nothing is found to hide.
 /// Measured: 0.3 of that in the second pass of c, 0.7 in its first, 1.3 in the first of b, 2.2 in the first of a real
 /// building (duplex; `bench/runs/`, compare). Asking in vain costs a few hundredths of a pass, not asking lost a third of one, so
@@ -53,28 +48,6 @@ const CLEAR: usize = 2;
 
 /// One record for each size of pair after each history.
 type Records = [[QueryRecord; HISTORIES]; SIZES];
-
-/// What one kind of query cost and saved, in packets.
-#[derive(Clone, Copy, Debug, Default)]
-struct Account {
-    spent: f64,
-    saved: f64,
-}
-
-impl Account {
-    /// The sum over several tasks.
-    fn sum(accounts: impl Iterator<Item = Self>) -> Self {
-        accounts.fold(Self::default(), |sum, one| Self {
-            spent: sum.spent + one.spent,
-            saved: sum.saved + one.saved,
-        })
-    }
-
-    /// Whether to go on.
-    fn pays(self) -> bool {
-        self.spent < TELLING || self.saved >= LEAST_SAVED * self.spent
-    }
-}
 
 /// The schedule of one task.
 #[derive(Clone, Debug)]
@@ -106,6 +79,9 @@ pub struct QuerySchedule {
     asks_occlusion: bool,
     asks_visibility: bool,
     asks_shortening: bool,
+    /// Of rectangles that blocked before, tried on single rays.
+    screened: Account,
+    screens_rays: bool,
 }
 
 impl QuerySchedule {
@@ -128,6 +104,8 @@ impl QuerySchedule {
             asks_occlusion: technique.proves_occlusion(),
             asks_visibility: true,
             asks_shortening: technique == Technique::Blockers,
+            screened: Account::default(),
+            screens_rays: technique == Technique::Blockers,
         }
     }
 
@@ -165,6 +143,7 @@ impl QuerySchedule {
             asks_occlusion: new.asks_occlusion && occluded.pays(),
             asks_visibility: new.asks_visibility && sum(|s| s.visible).pays(),
             asks_shortening: new.asks_shortening && sum(|s| s.shortened).pays(),
+            screens_rays: new.screens_rays && sum(|s| s.screened).pays(),
             ..new
         }
     }
@@ -172,6 +151,16 @@ impl QuerySchedule {
     /// True where no query is asked.
     pub fn gave_up(&self) -> bool {
         !(self.asks_occlusion || self.asks_visibility || self.asks_shortening)
+    }
+
+    /// Whether single rays are held against the rectangles that blocked before.
+    pub fn screens_rays(&self) -> bool {
+        self.screens_rays
+    }
+
+    /// Remembers what that cost and saved.
+    pub fn book_screened(&mut self, account: Account) {
+        self.screened = account;
     }
 
     /// False where no pair would be asked about, however large, or where so many were looked at in vain that most

@@ -15,7 +15,7 @@ use super::radiosity::Gatherer;
 use super::statistics::PassStatistics;
 use crate::cluster::NodeKind;
 use crate::math::NodeId;
-use crate::visibility::{SampledVisibility, Verdict};
+use crate::visibility::{SampledVisibility, ShadowCache, Verdict};
 use glam::Vec3;
 
 /// Packets of eight rays that an exchange casts: schedules weigh queries in packets. Some exchanges cast a second
@@ -48,6 +48,8 @@ pub(super) struct Task<'a, 'g, const C: usize> {
     pub(super) outcome: PassOutcome,
     /// Segments of the exchange that is being checked; empty in between.
     pub(super) segments: Vec<(Vec3, Vec3, bool)>,
+    /// Where the technique tests rays natively and has occluders: those that blocked last.
+    pub(super) shadow_cache: Option<ShadowCache>,
     pub(super) visits: u32,
     counts_rays: bool,
 }
@@ -59,6 +61,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
         schedule: &QuerySchedule,
     ) -> Self {
         let receivers = pass.context.elements[gatherer.root.index()].bounds;
+        let has_occluders = (pass.context.guarantees).is_some_and(|g| !g.occluders.is_empty());
         Self {
             pass,
             gatherer,
@@ -69,6 +72,7 @@ impl<'a, 'g, const C: usize> Task<'a, 'g, C> {
                 ..PassOutcome::default()
             },
             segments: Vec::new(),
+            shadow_cache: (schedule.screens_rays() && has_occluders).then(ShadowCache::default),
             visits: 0,
             counts_rays: pass.context.observer.counts_rays(),
         }

@@ -32,10 +32,14 @@ impl<const C: usize> Task<'_, '_, C> {
         };
         let greatest = self.greatest(&source);
         self.walk(&source, &receiver, greatest, &Known::NOTHING);
+        let mut schedule = self.prover.map(Prover::into_schedule);
+        if let (Some(schedule), Some(cache)) = (&mut schedule, &self.shadow_cache) {
+            schedule.book_screened(cache.account());
+        }
         TaskOutcome {
             owner,
             outcome: self.outcome,
-            schedule: self.prover.map(Prover::into_schedule),
+            schedule,
         }
     }
 

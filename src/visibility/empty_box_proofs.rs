@@ -4,6 +4,7 @@ use super::nasty_pairs::Draw;
 use super::nasty_scenes::{
     Triangles, bowl, grid, room, sheet, sphere, spiral_stair, torus, turned,
 };
+use super::near_segments::SegmentOctet;
 use super::proof_stage::Stage;
 use super::{ElementBounds, EmptyBoxes};
 use crate::math::Aabb;
@@ -59,6 +60,35 @@ fn proved_boxes(triangles: Triangles, seed: u64) -> EmptyBoxes {
         }
     }
     found
+}
+
+/// Of segments between points in and around boxes, those that one of them holds whole are said to lie in air.
+#[test]
+fn segments_lie_in_air_where_one_box_holds_both_ends() {
+    let mut draw = Draw::new(3);
+    let mut held = 0;
+    for _ in 0..2_000 {
+        // On a grid, so that points lie on borders.
+        let mut point = || (draw.point() * 8.0).round() / 8.0;
+        let boxes: Vec<Aabb> = (0..5)
+            .map(|_| Aabb::from_points([point(), point()]))
+            .collect();
+        let segments: [[Vec3; 2]; 8] = std::array::from_fn(|_| [point(), point()]);
+        let ends = |end: usize| Aabb::from_points(segments.map(|segment| segment[end]));
+        let near = EmptyBoxes::planted(boxes.clone()).near(ends(0));
+        let octet = SegmentOctet {
+            from: std::array::from_fn(|axis| segments.map(|segment| segment[0][axis])),
+            to: std::array::from_fn(|axis| segments.map(|segment| segment[1][axis])),
+        };
+        let air = near.between(ends(0), ends(1));
+        let said = air.map_or(0, |air| air.hold8(&octet));
+        for (lane, [p, q]) in segments.into_iter().enumerate() {
+            let is_held = boxes.iter().any(|b| b.contains(p) && b.contains(q));
+            assert_eq!(said & (1 << lane) != 0, is_held, "{p} to {q} in {boxes:?}");
+            held += u32::from(is_held);
+        }
+    }
+    assert!((1_000..15_000).contains(&held), "{held} of 16000");
 }
 
 /// A room with boxes of furniture and a leaning board.

@@ -6,6 +6,7 @@
 //! every pair inside.
 
 use super::box_growth::BoxGrower;
+use super::near_segments::SegmentOctet;
 use super::scene_tree::SceneTree;
 use super::wide_tree::BoxOctet;
 use crate::math::Aabb;
@@ -197,6 +198,62 @@ impl NearbyBoxes {
             }
         }
         sticks_out.contains(&0)
+    }
+
+    /// The boxes that reach to both ends of a pair, if there are any.
+    // Lanes of several arrays run in step: an index says so, and is what vectorises.
+    #[allow(clippy::needless_range_loop)]
+    #[inline]
+    pub fn between(&self, a: Aabb, b: Aabb) -> Option<AirBetween<'_>> {
+        let octet = self.octet.as_ref()?;
+        let mut apart = [0_u32; 8];
+        for axis in 0..3 {
+            // Both ends begin below the lower of their upper limits, and end above the higher of their lower ones.
+            let (low, high) = (a.max[axis].min(b.max[axis]), a.min[axis].max(b.min[axis]));
+            for l in 0..8 {
+                apart[l] |=
+                    u32::from(octet.min[axis][l] > low) | u32::from(octet.max[axis][l] < high);
+            }
+        }
+        let boxes = (0..8).fold(0, |bits, l| bits | u8::from(apart[l] == 0) << l);
+        (boxes != 0).then_some(AirBetween { octet, boxes })
+    }
+}
+
+/// Empty boxes that reach to both ends of a pair, which none of them need hold.
+#[derive(Clone, Copy, Debug)]
+pub struct AirBetween<'a> {
+    octet: &'a BoxOctet,
+    /// Bit per box.
+    boxes: u8,
+}
+
+impl AirBetween<'_> {
+    /// Bit per lane: one of the boxes holds the whole segment, which nothing blocks therefore.
+    // Lanes of several arrays run in step: an index says so, and is what vectorises.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    pub(super) fn hold8(&self, segments: &SegmentOctet) -> u8 {
+        let (mut boxes, mut held) = (self.boxes, 0);
+        while boxes != 0 {
+            let at = boxes.trailing_zeros() as usize;
+            boxes &= boxes - 1;
+            let mut sticks_out = [0_u32; 8];
+            for axis in 0..3 {
+                let (min, max) = (self.octet.min[axis][at], self.octet.max[axis][at]);
+                let (p, q) = (&segments.from[axis], &segments.to[axis]);
+                for l in 0..8 {
+                    sticks_out[l] |= u32::from(p[l] < min)
+                        | u32::from(q[l] < min)
+                        | u32::from(p[l] > max)
+                        | u32::from(q[l] > max);
+                }
+            }
+            for l in 0..8 {
+                held |= u8::from(sticks_out[l] == 0) << l;
+            }
+        }
+        held
     }
 }
 

@@ -8,6 +8,7 @@ use super::bounds::ElementBounds;
 use super::faults::Faults;
 use super::occlusion::OccluderFaces;
 use super::probe_segment::{ProbeSegment, SegmentWalk};
+use super::screen::Screen;
 use super::solid_tree::{SolidAnswer, SolidTree};
 use super::tolerance::Tolerance;
 use super::wide_tree::{WideLeaf, WideTree};
@@ -22,6 +23,8 @@ pub struct OccluderTree {
     tree: WideTree,
     leaves: Vec<RectangleOctet>,
     faces: Vec<OccluderFaces>,
+    /// Parallel to `faces`.
+    screens: Vec<Screen>,
     solids: SolidTree,
     tolerance: Tolerance,
     faults: Faults,
@@ -74,6 +77,10 @@ impl OccluderTree {
             tree,
             leaves,
             faces: occluders.iter().map(OccluderFaces::new).collect(),
+            screens: occluders
+                .iter()
+                .map(|o| Screen::new(o, &tolerance))
+                .collect(),
             solids: SolidTree::build(solids, &tolerance),
             tolerance,
             faults: Faults::NONE,
@@ -108,7 +115,7 @@ impl OccluderTree {
     pub fn bytes(&self) -> usize {
         self.tree.bytes()
             + self.leaves.len() * size_of::<RectangleOctet>()
-            + self.faces.len() * size_of::<OccluderFaces>()
+            + self.faces.len() * (size_of::<OccluderFaces>() + size_of::<Screen>())
             + self.solids.bytes()
     }
 
@@ -161,6 +168,20 @@ impl OccluderTree {
             nodes: found.nodes,
             tests: found.tests,
         }
+    }
+
+    /// A rectangle that the segment crosses, and its index; no promise hangs on it.
+    pub(super) fn screen_across(
+        &self,
+        from: Vec3,
+        to: Vec3,
+        stack: &mut Vec<u32>,
+    ) -> Option<(u32, Screen)> {
+        self.arch.dispatch(AcrossKernel {
+            tree: self,
+            segment: ProbeSegment::new(from, to),
+            stack,
+        })
     }
 
     /// Tries one occluder only: nearly free where the caller has a likely one.
@@ -257,6 +278,32 @@ impl WithSimd for QueryKernel<'_> {
     fn with_simd<S: Simd>(self, _: S) -> OcclusionAnswer {
         self.tree
             .query_kernel(self.a, self.b, self.last, self.scratch)
+    }
+}
+
+/// [`OccluderTree::screen_across`] for one instruction set.
+struct AcrossKernel<'a> {
+    tree: &'a OccluderTree,
+    segment: ProbeSegment,
+    stack: &'a mut Vec<u32>,
+}
+
+impl WithSimd for AcrossKernel<'_> {
+    type Output = Option<(u32, Screen)>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let tree = self.tree;
+        let mut walk = SegmentWalk::new(&self.segment, &tree.tree, self.stack);
+        while let Some(leaf) = walk.next_leaf() {
+            let octet = &tree.leaves[leaf];
+            let crossed = octet.crossed_by(&self.segment);
+            if crossed != 0 {
+                let id = octet.ids[crossed.trailing_zeros() as usize];
+                return Some((id, tree.screens[id as usize]));
+            }
+        }
+        None
     }
 }
 

@@ -50,7 +50,7 @@ fn mapped(map: impl Fn(f64) -> f64) -> String {
 fn sizes_and_places() {
     let folder = Folder::new();
     write_room(&folder);
-    for exponent in [-60, -20, -6, 6, 20, 60] {
+    for exponent in [-60, -20, -6, 6, 20, 59] {
         let name = format!("scale{exponent}.obj");
         folder.write(&name, mapped(|x| x * 10f64.powi(exponent)));
         solves(&folder, &name);
