@@ -22,6 +22,10 @@ const NATIVE_GAIN: f32 = 0.25;
 /// Nodes and leaves that any walk, and no walk but the paper's, may test.
 const LEAST_NODES: f32 = 8.0;
 const MOST_NODES: f32 = 32.0;
+/// Packets spent from which what was saved says whether to go on: on queries, of which few are dear, and on tests of single
+/// rays, of which there are many.
+const TELLING: f64 = 1_000.0;
+const TELLING_OF_RAYS: f64 = 50.0;
 /// Packets to be saved from which a pair to be split is worth a query: a smaller one is an exchange at once, or nearly.
 const LEAST_EXPECTED: f32 = 2.0;
 /// Packets to be cast from which a pair is worth a shorter list.
@@ -140,10 +144,10 @@ impl QuerySchedule {
             visibility: all(|s| &s.visibility),
             shortening: std::array::from_fn(|size| mean(&|s| s.shortening[size])),
             solids: std::array::from_fn(|size| mean(&|s| s.solids[size])),
-            asks_occlusion: new.asks_occlusion && occluded.pays(),
-            asks_visibility: new.asks_visibility && sum(|s| s.visible).pays(),
-            asks_shortening: new.asks_shortening && sum(|s| s.shortened).pays(),
-            screens_rays: new.screens_rays && sum(|s| s.screened).pays(),
+            asks_occlusion: new.asks_occlusion && occluded.pays(TELLING),
+            asks_visibility: new.asks_visibility && sum(|s| s.visible).pays(TELLING),
+            asks_shortening: new.asks_shortening && sum(|s| s.shortened).pays(TELLING),
+            screens_rays: new.screens_rays && sum(|s| s.screened).pays(TELLING_OF_RAYS),
             ..new
         }
     }

@@ -1,7 +1,5 @@
 //! What a way to save rays cost and saved.
 
-/// Packets spent on one way from which what it saved says whether to go on: fewer say too little, and cost too little.
-const TELLING: f64 = 1_000.0;
 /// Least packets saved for each that was spent: below it a way is left to the first tasks of a pass.
 const LEAST_SAVED: f64 = 1.25;
 
@@ -23,8 +21,8 @@ impl Account {
         })
     }
 
-    /// Whether to go on.
-    pub fn pays(self) -> bool {
-        self.spent < TELLING || self.saved >= LEAST_SAVED * self.spent
+    /// Whether to go on; true as long as less than `telling` was spent, which says too little and costs too little.
+    pub fn pays(self, telling: f64) -> bool {
+        self.spent < telling || self.saved >= LEAST_SAVED * self.spent
     }
 }
